@@ -162,11 +162,14 @@ static void tell_values(const sli_ldtk *reader, const sli_ldtk_settled *as) {
              &told->stands);
     add_list(text, sizeof text,
              as->ground_solid ? "; solid ground: " : "; open ground: ", &told->ground);
+    if (as->beside_solid) add_list(text, sizeof text, "; solid ground: ", &told->beside);
     add_list(text, sizeof text, "; stops steps, not sight: ", &told->water);
-    add_list(text, sizeof text, "; open: ", &told->open);
+    const bool beside = *told->beside.text && !as->beside_solid;
+    if (beside) add_list(text, sizeof text, "; open: ", &told->beside);
+    add_list(text, sizeof text, beside ? ", " : "; open: ", &told->open);
     const char *own = *text == ';' ? text + 2 : text;
-    sl_note(reader->context, "%s: values: %s; --layers %s:1+3-5 takes the values of these numbers",
-            reader->name, own, reader->asked);
+    sl_note(reader->context, "%s: values: %s; --layers %s:%s takes values by their numbers",
+            reader->name, own, reader->asked, *told->numbers ? told->numbers : told->others);
 }
 
 static bool has_solid(const sli_ldtk *reader) {
@@ -177,44 +180,63 @@ static bool has_solid(const sli_ldtk *reader) {
     return false;
 }
 
-enum { EXAMPLE = 600 };
-
-/// ", as in:" and a command that takes the layer, with its tiles; where these may be any, that only
-/// the picture shows them.
-static const char *show_example(const sli_ldtk *reader, char text[EXAMPLE]) {
-    if (reader->tiles_stand || !reader->tiles_unsure)
-        snprintf(text, EXAMPLE,
-                 ", as in: sightline check '%.300s' --map '%.40s' --layers '%.40s%s' -o map.png",
-                 reader->name, reader->taken, reader->tiles_name, reader->tiles_asked);
+/// What empty cells beside open ground are, and what takes the contrary.
+static void tell_bare(const sli_ldtk *reader, const sli_ldtk_settled *as) {
+    const char *numbers = reader->told.numbers;
+    char next[SLI_LDTK_EXAMPLE];
+    snprintf(next, sizeof next,
+             "sightline check '%.300s' --map '%.40s' --layers '%.40s:%s%s%s' -o "
+             "map.png",
+             reader->name, reader->taken, reader->asked, as->bare_solid ? "" : "0",
+             !as->bare_solid && *numbers ? "+" : "", numbers);
+    if (as->bare_solid)
+        sl_note(
+            reader->context,
+            "%s: %.0f %% of the cells are empty, and taken as solid, as starts stand on a floor "
+            "that ends there; if one walks there%s%s",
+            reader->name, 100 * as->bare, *numbers ? ": " : ", give them a value in LDtk",
+            *numbers ? next : "");
     else
-        snprintf(text, EXAMPLE,
-                 "; which tiles of '%.40s' are solid, only its picture shows: tiles of a tileset "
-                 "are counted from 0, row by row",
-                 reader->tiles_name);
-    return text;
+        sl_note(reader->context,
+                "%s: %.0f %% of the cells are empty, and open as the ground is; if they are solid: "
+                "%s",
+                reader->name, 100 * as->bare, next);
+}
+
+/// What is taken of a layer of tiles by a guess, and what takes the contrary.
+static void tell_guess(const sli_ldtk *reader) {
+    const bool tiles = reader->guess == SLI_LDTK_GUESS_TILES;
+    const char *layer = reader->drawn.items[reader->guessed].name;
+    char why[120] = "they lie below and not above, as in a platformer";
+    if (reader->stood_of)
+        snprintf(why, sizeof why, "%zu of %zu starts and entities stand %s", reader->stood,
+                 reader->stood_of, tiles ? "where there is none" : "on tiles");
+    sl_note(reader->context,
+            "%s: nothing in it says what is solid: %s of layer '%s' are taken (%s); if it is the "
+            "other way round: sightline check '%.300s' --map '%.40s' --layers '%.40s' -o map.png",
+            reader->name, tiles ? "the tiles" : "the squares without tiles", layer, why,
+            reader->name, reader->taken, tiles ? "void" : layer);
 }
 
 /// What may be walls, and is not: layers of tiles, and cells without a value.
-static void tell_doubts(sli_ldtk *reader, const sli_ldtk_settled *as) {
-    char example[EXAMPLE];
-    if (reader->options->layers) return;
-    if (*reader->tiles_name && (!reader->layers || !has_solid(reader)))
-        sl_note(reader->context,
-                "%s: %s; layers of tiles: %s; if one shows walls, --layers NAME takes all its "
-                "tiles, NAME:1+3-5 tiles of it%s",
-                reader->name,
+static sl_status tell_doubts(sli_ldtk *reader, const sli_ldtk_settled *as) {
+    char example[SLI_LDTK_EXAMPLE];
+    if (reader->options->layers) return SL_OK;
+    if (reader->guess) {
+        tell_guess(reader);
+    } else if (reader->drawn.count && (!reader->layers || !has_solid(reader))) {
+        SL_TRY(sli_ldtk_show_example(reader, example));
+        sl_note(reader->context, "%s: %s; layers of tiles: %s%s", reader->name,
                 reader->layers ? "no cell is solid, so the level's edge is its walls"
                                : "layers are told by their names and enums",
-                sli_name_list_cut(&reader->tile_names, 150), show_example(reader, example));
-    if (as->bare > 0.1)
-        sl_note(reader->context,
-                "%s: %.0f %% of the cells are empty, and open as the ground is; --layers %s:0+2-3 "
-                "takes values as solid, 0 is that of empty cells",
-                reader->name, 100 * as->bare, reader->asked);
+                sli_name_list_cut(&reader->tile_names, 150), example);
+    }
+    if (as->bare > 0.1) tell_bare(reader, as);
+    return SL_OK;
 }
 
 /// What was taken, merged and left out.
-static void give_account(sli_ldtk *reader, const sl_map *map, const sli_ldtk_settled *as) {
+static sl_status give_account(sli_ldtk *reader, const sl_map *map, const sli_ldtk_settled *as) {
     char bottom[SL_NUMBER_TEXT];
     sl_number_write(reader->bottom, bottom);
     const sli_tally left[] = {
@@ -234,7 +256,7 @@ static void give_account(sli_ldtk *reader, const sl_map *map, const sli_ldtk_set
                 reader->walls.count == 1 ? "entity named as a wall gives"
                                          : "entities named as walls give",
                 map->wall_count, sli_tally_write("; left out: ", left, 4, without), bottom);
-        return;
+        return SL_OK;
     }
     sl_note(reader->context,
             "%s: level %s%s: %zu %s layer%s%s give%s %zu wall%s; solid are %s%s; unit: pixels, "
@@ -243,34 +265,40 @@ static void give_account(sli_ldtk *reader, const sl_map *map, const sli_ldtk_set
             count == 1 ? "" : "s", sli_tally_write(" and ", beside, 1, entities),
             count == 1 && !reader->walls.count ? "s" : "", map->wall_count,
             map->wall_count == 1 ? "" : "s",
-            !reader->layers      ? "tiles whose layer or enum says so"
-            : as->bare_open      ? "the empty cells"
-            : reader->told.named ? "values by their names"
-                                 : "all values but 0",
+            reader->void_is_solid ? "squares without tiles"
+            : !reader->layers     ? "tiles whose layer or enum says so"
+            : as->bare_open       ? "the empty cells"
+            : reader->told.named  ? "values by their names"
+                                  : "all values but 0",
             sli_tally_write("; left out: ", left, 4, without), bottom);
     tell_values(reader, as);
-    tell_doubts(reader, as);
+    return tell_doubts(reader, as);
 }
 
 /// SL_BAD_INPUT where the level has nothing that says what is solid.
 static sl_status check_any(sli_ldtk *reader, bool unsure) {
-    char next[900] = "; it has no tiles", example[EXAMPLE];
-    if (*reader->tiles_name)
-        snprintf(next, sizeof next,
-                 "; layers of tiles: %s; --layers NAME takes all tiles of one, NAME:1+3-5 "
-                 "tiles of it%s",
-                 sli_name_list_cut(&reader->tile_names, 150), show_example(reader, example));
-    if (!reader->layers && !reader->tile_layers && !reader->walls.count)
+    char next[900] = "; it has no tiles", example[SLI_LDTK_EXAMPLE];
+    const bool none = !reader->layers && !reader->tile_layers && !reader->walls.count;
+    if (none && (reader->drawn.count || reader->marks)) {
+        SL_TRY(sli_ldtk_show_example(reader, example));
+        snprintf(next, sizeof next, "; layers of tiles: %s%s",
+                 reader->drawn.count ? sli_name_list_cut(&reader->tile_names, 150) : "none",
+                 example);
+    }
+    if (none)
         return sli_json_fail(&reader->root,
                              "level %s has no IntGrid layer%s, and no layer of tiles whose name or "
                              "whose tileset's enums say what is solid (Wall, Solid, Collision)%s",
                              reader->taken, reader->empty_cells ? " with values" : "", next);
+    const char *numbers = reader->told.numbers;
     if (unsure)
         return sl_fail_at(reader->context, reader->name, 0,
-                          "the values %s may be walls or open ground; --layers %s:1+3-5 takes the "
-                          "values of these numbers as solid, as in: sightline check '%.150s' "
-                          "--layers %s -o map.png",
-                          reader->told.ground.text, reader->asked, reader->name, reader->asked);
+                          "the values %s may be walls or open ground; if they are walls: sightline "
+                          "check '%.300s' --map '%.40s' --layers '%.40s' -o map.png%s%s%s%s%s",
+                          reader->told.ground.text, reader->name, reader->taken, reader->asked,
+                          *numbers ? "; if they are open, with --layers '" : "",
+                          *numbers ? reader->asked : "", *numbers ? ":" : "", numbers,
+                          *numbers ? "'" : "");
     return SL_OK;
 }
 
@@ -278,15 +306,16 @@ static sl_status check_any(sli_ldtk *reader, bool unsure) {
 static sl_status check_walls(sli_ldtk *reader, const sl_map *map) {
     char next[600] = "";
     if (map->wall_count || sl_map_partial_walls(map)) return SL_OK;
-    const bool several = strchr(reader->told.solid.text, ',') || *reader->told.stands.text;
+    const sli_ldtk_told *told = &reader->told;
+    const bool several = strchr(told->solid.text, ',') || *told->stands.text;
+    const char *numbers = *told->numbers ? told->numbers : told->others;
     if (reader->layers && several)
         snprintf(next, sizeof next,
-                 "; --layers %.40s:1+3-5 takes the values of these numbers alone, as in: sightline "
-                 "check '%.300s' --map '%.40s' --layers '%.40s:1' -o map.png",
-                 reader->asked, reader->name, reader->taken, reader->asked);
+                 "; to take values by their numbers: sightline check '%.300s' --map '%.40s' "
+                 "--layers '%.40s:%.*s' -o map.png",
+                 reader->name, reader->taken, reader->asked, (int)strcspn(numbers, "+"), numbers);
     else if (!reader->layers)
-        snprintf(next, sizeof next,
-                 "; --layers NAME:1+3-5 takes tiles of these numbers alone; layers of tiles: %s",
+        snprintf(next, sizeof next, "; give some by number; layers of tiles: %s",
                  sli_name_list_cut(&reader->tile_names, 150));
     return sl_fail_at(reader->context, reader->name, 0,
                       "level %s: every cell is solid, so there are no walls%s", reader->taken,
@@ -342,6 +371,7 @@ static sl_status read_file(sli_ldtk *reader, sl_map *map) {
     SL_TRY(sli_json_object(&reader->root));
     SL_TRY(levels.value || worlds.value ? read_project(reader) : read_alone(reader));
     SL_TRY(sli_ldtk_settle_walls(reader));
+    SL_TRY(sli_ldtk_settle_drawn(reader));
     sli_ldtk_settle_ground(reader, &settled);
     SL_TRY(check_any(reader, settled.unsure));
     reader->things.top = reader->bottom;
@@ -354,7 +384,7 @@ static sl_status read_file(sli_ldtk *reader, sl_map *map) {
     SL_TRY(sli_ldtk_add_walls(reader, map));
     strcpy(map->unit, "px");
     map->source.transform = sli_y_down(reader->bottom, 1);
-    give_account(reader, map, &settled);
+    SL_TRY(give_account(reader, map, &settled));
     SL_TRY(check_walls(reader, map));
     return sli_things_finish(&reader->things, map);
 }
@@ -420,6 +450,7 @@ sl_status sli_map_read_ldtk(sl_context *context, const char *name, const char *t
                        .things = {.context = context, .file = name, .options = options}};
     const sl_status status = read_file(&reader, &read);
     sli_tiles_destroy(context, &reader.tiles);
+    sli_ldtk_destroy_drawn(&reader);
     sli_things_destroy(&reader.things);
     sl_free(context, reader.others.items);
     sl_free(context, reader.walls.items);

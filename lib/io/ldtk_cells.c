@@ -41,6 +41,17 @@ bool sli_ldtk_any_ceiling(const sli_json *values) {
     return false;
 }
 
+bool sli_ldtk_any_platform(const sli_json *values) {
+    static const char *const words[] = {"platform", "ladder", "slope"};
+    for (size_t i = 0; i < json_array_size(values->value); i++) {
+        const sli_json value = sli_json_item(values, i);
+        const char *name = sli_json_text_of(&value, "identifier");
+        for (sli_name_word word; sli_word_next(&name, &word);)
+            if (sli_word_in(&word, words, sizeof words / sizeof *words)) return true;
+    }
+    return false;
+}
+
 bool sli_ldtk_only_walkable(const sli_json *values) {
     bool any = false;
     for (size_t i = 0; i < json_array_size(values->value); i++) {
@@ -61,7 +72,9 @@ static char square_of(const sli_ldtk_layer *layer, const char *name) {
     if (kind >= SLI_GAME_STANDS &&
         !(layer->by_name && kind == SLI_GAME_LIKELY && !is_firm(kind, name)))
         return layer->by_name && kind == SLI_GAME_STANDS ? SLI_LDTK_STANDS : '#';
-    if (layer->by_name || kind == SLI_GAME_PASS || kind == SLI_GAME_DRAWN) return '.';
+    if (kind == SLI_GAME_PASS || kind == SLI_GAME_DRAWN) return '.';
+    if (layer->by_name)
+        return kind == SLI_GAME_GROUND || kind == SLI_GAME_FLOOR ? SLI_LDTK_BESIDE : '.';
     if (layer->kind == SLI_GAME_WATER) return '~';
     if (kind == SLI_GAME_UNSAID || layer->kind == SLI_GAME_SOLID) return '#';
     return SLI_LDTK_GROUND;
@@ -72,7 +85,11 @@ static void tell(sli_ldtk_told *told, char square, const char *name, int64_t val
                           : square == SLI_LDTK_STANDS ? &told->stands
                           : square == '~'             ? &told->water
                           : square == SLI_LDTK_GROUND ? &told->ground
+                          : square == SLI_LDTK_BESIDE ? &told->beside
                                                       : &told->open;
+    const bool floor = sli_game_kind_of(name) == SLI_GAME_FLOOR;
+    told->floor |= square == SLI_LDTK_GROUND && floor;
+    told->earth |= square == SLI_LDTK_GROUND && !floor;
     char text[80];
     snprintf(text, sizeof text, "%s%s%lld%s", sli_show((sli_word){name, strlen(name)}).text,
              *name ? " (" : "", (long long)value, *name ? ")" : "");
@@ -82,7 +99,14 @@ static void tell(sli_ldtk_told *told, char square, const char *name, int64_t val
     const char *there = strstr(list->text, text);
     const bool known = there && (there == list->text || there[-1] == ' ') &&
                        (!there[strlen(text)] || strncmp(there, wanted, strlen(wanted)) == 0);
-    if (!known) sli_name_list_add(list, (sli_word){text, strlen(text)});
+    if (known) return;
+    sli_name_list_add(list, (sli_word){text, strlen(text)});
+    char *numbers = square == '#' ? told->numbers : told->others;
+    const size_t used = strlen(numbers);
+    // A number that does not fit is left out.
+    const int length = snprintf(text, sizeof text, "%s%lld", used ? "+" : "", (long long)value);
+    if (used + (size_t)length < sizeof told->numbers)
+        memcpy(numbers + used, text, (size_t)length + 1);
 }
 
 sli_ldtk_cell sli_ldtk_meaning(const sli_json *values, const sli_ldtk_layer *layer, int64_t value,
@@ -156,24 +180,34 @@ static char square_at(const sli_tile_block *block, sl_point at) {
 
 /// How many stand on ground, and on what is empty.
 typedef struct votes {
-    size_t ground, stands, empty;
+    size_t ground, beside, stands, empty;
 } votes;
+
+static bool is_open(char square) {
+    return square == '.' || square == SLI_LDTK_PASS;
+}
 
 static void vote(votes *of, const sli_tile_block *block, sl_point at) {
     const char square = square_at(block, at);
     of->ground += square == SLI_LDTK_GROUND;
+    of->beside += square == SLI_LDTK_BESIDE;
     of->stands += square == SLI_LDTK_STANDS;
-    of->empty += square == '.';
+    of->empty += is_open(square);
 }
 
 /// Puts what was found out into all squares.
 static void settle(const sli_ldtk *reader, const sli_ldtk_settled *as) {
     for (size_t i = 0; i < reader->tiles.blocks.count; i++) {
         const sli_tile_block *block = &reader->tiles.blocks.items[i];
-        for (size_t k = 0; k < block->columns * block->rows; k++) {
+        const size_t count = block->columns * block->rows;
+        const bool ground = memchr(block->squares, SLI_LDTK_GROUND, count) != NULL;
+        for (size_t k = 0; k < count; k++) {
             char *square = &block->squares[k];
+            if (*square == '.' && ground && as->bare_solid) *square = '#';
             if (*square == SLI_LDTK_GROUND) *square = as->ground_solid ? '#' : '.';
+            if (*square == SLI_LDTK_BESIDE) *square = as->beside_solid ? '#' : '.';
             if (*square == SLI_LDTK_STANDS) *square = as->stands_open ? '.' : '#';
+            if (*square == SLI_LDTK_PASS) *square = '.';
         }
     }
 }
@@ -208,6 +242,57 @@ static bool settle_bare(const sli_ldtk *reader, const sli_tile_block *block) {
     return open;
 }
 
+/// The places where ground, water and the like lie beside empty cells, and beside walls.
+typedef struct ends {
+    size_t empty, walls;
+} ends;
+
+static void add_ends(ends *all, char one, char other) {
+    const bool floor = one == SLI_LDTK_GROUND || one == '~' || one == SLI_LDTK_PASS;
+    all->empty += floor && other == '.';
+    all->walls += floor && other == '#';
+}
+
+/// Whether ground ends at empty cells nearly everywhere: these lie beyond it.
+static bool ends_at_empty(const sli_ldtk *reader) {
+    ends all = {0};
+    for (size_t i = 0; i < reader->tiles.blocks.count; i++) {
+        const sli_tile_block *block = &reader->tiles.blocks.items[i];
+        const size_t count = block->columns * block->rows;
+        if (!memchr(block->squares, SLI_LDTK_GROUND, count)) continue;
+        for (size_t k = 0; k < count; k++) {
+            const char *at = &block->squares[k];
+            if ((k + 1) % block->columns) {
+                add_ends(&all, at[0], at[1]);
+                add_ends(&all, at[1], at[0]);
+            }
+            if (k + block->columns < count) {
+                add_ends(&all, at[0], at[block->columns]);
+                add_ends(&all, at[block->columns], at[0]);
+            }
+        }
+    }
+    return all.empty && 4 * all.walls <= all.empty;
+}
+
+/// Whether ground beside values that are named for walls is solid: no cell is a wall, and starts
+/// stand on empty cells and not on the ground.
+static bool is_beside_solid(const sli_ldtk *reader) {
+    votes starts = {0};
+    bool ground = false;
+    for (size_t i = 0; i < reader->tiles.blocks.count; i++) {
+        const sli_tile_block *block = &reader->tiles.blocks.items[i];
+        const size_t count = block->columns * block->rows;
+        if (memchr(block->squares, '#', count)) return false;
+        if (!memchr(block->squares, SLI_LDTK_BESIDE, count)) continue;
+        ground = true;
+        for (size_t k = 0; k < reader->things.items.count; k++)
+            if (reader->things.items.items[k].kind == SLI_THING_START)
+                vote(&starts, block, reader->things.items.items[k].middle);
+    }
+    return ground && starts.empty && !starts.beside;
+}
+
 void sli_ldtk_settle_ground(sli_ldtk *reader, sli_ldtk_settled *out) {
     size_t ground = 0, stands = 0, empty = 0, all = 0;
     votes starts = {0}, others = {0};
@@ -220,23 +305,27 @@ void sli_ldtk_settle_ground(sli_ldtk *reader, sli_ldtk_settled *out) {
         for (size_t k = 0; k < count; k++) {
             ground += block->squares[k] == SLI_LDTK_GROUND;
             stands += block->squares[k] == SLI_LDTK_STANDS;
-            empty += block->squares[k] == '.';
+            empty += is_open(block->squares[k]);
         }
         all += count;
         for (size_t k = 0; k < reader->things.items.count; k++)
             if (reader->things.items.items[k].kind == SLI_THING_START)
                 vote(&starts, block, reader->things.items.items[k].middle);
         for (size_t k = 0; k < reader->others.count; k++)
-            vote(&others, block, reader->others.items[k]);
+            vote(&others, block, reader->others.items[k].middle);
     }
     *out = (sli_ldtk_settled){0};
     if (ground) {
         const bool told = starts.ground != starts.empty;
         const bool stood_on = others.ground >= 2 && others.ground >= 2 * others.empty;
-        out->ground_solid = told ? starts.empty > starts.ground : !stood_on && 5 * empty >= 2 * all;
+        const bool air = 5 * empty >= 2 * all || (10 * empty > all && reader->side_view);
+        out->ground_solid = told ? starts.empty > starts.ground : !stood_on && air;
         out->unsure = !told && !stood_on && !out->ground_solid && 10 * empty > all;
         out->bare = out->ground_solid ? 0 : (double)empty / (double)all;
+        out->bare_solid = !out->ground_solid && starts.ground && !starts.empty &&
+                          reader->told.floor && !reader->told.earth && ends_at_empty(reader);
     }
+    out->beside_solid = is_beside_solid(reader);
     if (stands)
         out->stands_open = starts.stands || starts.empty
                                ? starts.stands > starts.empty

@@ -2,6 +2,7 @@
 #include "io/ldtk.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <strings.h>
 
 /// Two numbers of an array, where it is there.
@@ -72,17 +73,38 @@ static sl_box box_of_entity(const sli_json *entity, sl_point corner) {
 }
 
 /// Keeps the middle of an entity that is neither a start nor a door.
-static sl_status keep_other(sli_ldtk *reader, const sl_box *box) {
+static sl_status keep_other(sli_ldtk *reader, const sl_box *box, double step) {
     SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->others, 1));
-    reader->others.items[reader->others.count++] =
-        (sl_point){(box->min.x + box->max.x) / 2, (box->min.y + box->max.y) / 2};
+    reader->others.items[reader->others.count++] = (sli_ldtk_other){
+        .middle = {(box->min.x + box->max.x) / 2, (box->min.y + box->max.y) / 2},
+        .small = box->max.x - box->min.x <= 2 * step && box->max.y - box->min.y <= 2 * step};
     return SL_OK;
 }
 
+/// Whether an entity of this name may be a wall beside no firmer one: "MarbleWall", but no torch on
+/// a wall.
+static bool says_likely_wall(const char *name) {
+    return sli_game_kind_of(name) == SLI_GAME_LIKELY && sli_mentions_solid(name) &&
+           !sli_game_says_other(name);
+}
+
+static void drop_walls(sli_ldtk *reader) {
+    reader->entities += reader->walls.count;
+    reader->walls.count = reader->marks = 0;
+    reader->wall_sized = reader->walls_likely = false;
+    *reader->mark = '\0';
+}
+
 /// Keeps the box of an entity that is named for a wall.
-static sl_status keep_wall(sli_ldtk *reader, const sl_box *box, double step) {
+static sl_status keep_wall(sli_ldtk *reader, const char *name, const sl_box *box, double step) {
     const sl_point size = {box->max.x - box->min.x, box->max.y - box->min.y};
+    const bool likely = says_likely_wall(name) && !sli_game_says_stops(name);
     if (!(size.x > 0 && size.y > 0)) return SL_OK;
+    if (reader->walls_likely && !likely) drop_walls(reader);
+    if (!reader->walls.count) reader->walls_likely = likely;
+    if (likely && !reader->walls_likely) return SL_OK;
+    if (!*reader->mark) snprintf(reader->mark, sizeof reader->mark, "%s", name);
+    reader->marks += strncmp(reader->mark, name, sizeof reader->mark - 1) == 0;
     SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->walls, 1));
     reader->walls.items[reader->walls.count++] = *box;
     reader->wall_step = step;
@@ -102,13 +124,17 @@ static sl_status read_entity(sli_ldtk *reader, const sli_json *entity, sl_point 
     if (says.kind == SLI_THING_DOOR && own != name) says.name = own;
     SL_TRY(sli_things_ask(&reader->things, name, NULL, &says));
     const sl_box box = box_of_entity(entity, corner);
-    const bool stops = walls && sli_game_says_stops(name);
-    const bool named = walls == SLI_LDTK_NAMED && sli_says_solid(name);
+    sli_word numbers;
+    const bool stops = walls == SLI_LDTK_ASKED
+                           ? sli_layers_ask(reader->options->layers, name, &numbers)
+                           : sli_game_says_stops(name);
+    const bool named = walls == SLI_LDTK_NAMED &&
+                       (sli_game_kind_of(name) == SLI_GAME_SOLID || says_likely_wall(name));
     reader->walls_named |= !says.kind && named && !stops;
-    if (!says.kind && (named || stops)) return keep_wall(reader, &box, step);
+    if (!says.kind && (named || stops)) return keep_wall(reader, name, &box, step);
     if (!says.kind) {
         sli_things_leave(&reader->things, name);
-        return keep_other(reader, &box);
+        return keep_other(reader, &box, step);
     }
     const sli_json px = sli_json_member(entity, "px"), pivot = sli_json_member(entity, "__pivot");
     const sli_json width = sli_json_member(entity, "width");
@@ -178,16 +204,52 @@ static bool is_in_level(const sli_ldtk *reader, const sl_box *box) {
     return false;
 }
 
+static int compare_boxes(const void *left, const void *right) {
+    const sl_box *a = left, *b = right;
+    if (a->min.y != b->min.y) return a->min.y < b->min.y ? -1 : 1;
+    return (a->min.x > b->min.x) - (a->min.x < b->min.x);
+}
+
+/// Whether a box begins at a place.
+static bool begins_at(const sli_ldtk *reader, double x, double y) {
+    const sl_box at = {.min = {x, y}};
+    return bsearch(&at, reader->walls.items, reader->walls.count, sizeof at, compare_boxes) != NULL;
+}
+
+/// Whether there are many boxes and most of them lie side by side, as walls do. Sorts them.
+static bool lie_in_rows(sli_ldtk *reader) {
+    enum { LEAST = 8 };
+    const size_t count = reader->walls.count;
+    size_t beside = 0;
+    if (count < LEAST) return false;
+    qsort(reader->walls.items, count, sizeof *reader->walls.items, compare_boxes);
+    for (size_t i = 0; i < count; i++) {
+        const sl_box *own = &reader->walls.items[i];
+        const double width = own->max.x - own->min.x, height = own->max.y - own->min.y;
+        beside += begins_at(reader, own->max.x, own->min.y) ||
+                  begins_at(reader, own->min.x - width, own->min.y) ||
+                  begins_at(reader, own->min.x, own->max.y) ||
+                  begins_at(reader, own->min.x, own->min.y - height);
+    }
+    return 2 * beside > count;
+}
+
+/// Fewer walls that are one cell large are blocks to be pushed, or the like.
+enum { LEAST_MARKS = 8 };
+
 sl_status sli_ldtk_settle_walls(sli_ldtk *reader) {
-    const bool others = reader->layers || reader->tile_layers;
+    const bool asked = reader->options->layers != NULL;
+    const bool others = reader->layers || reader->tile_layers || reader->void_is_solid;
     size_t kept = 0;
     for (size_t i = 0; i < reader->walls.count; i++)
         if (is_in_level(reader, &reader->walls.items[i]))
             reader->walls.items[kept++] = reader->walls.items[i];
     reader->entities += reader->walls.count - kept;
     reader->walls.count = kept;
-    // Walls that are all one cell large are marks, of which a field may say more.
-    if (!reader->wall_sized || (others && reader->walls_named)) {
+    // Walls that are all one cell large, here and there, are marks, of which a field may say more.
+    const bool marks = !asked && !reader->wall_sized && !(!others && lie_in_rows(reader));
+    if (!marks || others || reader->marks < LEAST_MARKS) reader->marks = 0;
+    if (marks || (!asked && others && reader->walls_named)) {
         reader->entities += reader->walls.count;
         reader->walls.count = 0;
     }

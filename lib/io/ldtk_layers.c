@@ -54,6 +54,7 @@ static sl_status read_cells(sli_ldtk *reader, const sli_json *layer, const sli_j
     of.by_name = sli_ldtk_any_solid(&values);
     of.only_walkable = sli_ldtk_only_walkable(&values);
     of.ceiling = sli_ldtk_any_ceiling(&values);
+    reader->side_view |= sli_ldtk_any_platform(&values);
     const bool takes_empty = of.numbers.length ? sli_numbers_have(of.numbers, 0) : of.only_walkable;
     known_cells *known = sl_alloc(reader->context, sizeof *known);
     if (!known) return SL_NO_MEMORY;
@@ -74,7 +75,7 @@ static sl_status read_cells(sli_ldtk *reader, const sli_json *layer, const sli_j
             known->items[at].cell = sli_ldtk_meaning(&values, &of, value, &reader->told);
         }
         const sli_ldtk_cell *cell = &known->items[at].cell;
-        squares[i] = cell->square;
+        squares[i] = cell->square == '.' && value ? SLI_LDTK_PASS : cell->square;
         bare &= cell->bare && (!only || only == value);
         only = value;
         reader->tiles.water |= cell->square == '~';
@@ -87,13 +88,7 @@ static sl_status read_cells(sli_ldtk *reader, const sli_json *layer, const sli_j
     return status;
 }
 
-/// A layer's squares.
-typedef struct frame {
-    int64_t columns, rows, step;
-    sl_point corner;
-} frame;
-
-static sl_status read_frame(const sli_json *layer, sli_ldtk_place at, frame *out) {
+sl_status sli_ldtk_read_frame(const sli_json *layer, sli_ldtk_place at, sli_ldtk_frame *out) {
     const sli_json width = sli_json_member(layer, "__cWid"),
                    height = sli_json_member(layer, "__cHei");
     const sli_json size = sli_json_member(layer, "__gridSize");
@@ -111,9 +106,9 @@ static sl_status read_frame(const sli_json *layer, sli_ldtk_place at, frame *out
 
 static sl_status read_layer(sli_ldtk *reader, const sli_json *layer, sli_ldtk_place at) {
     const sli_json cells = sli_json_member(layer, "intGridCsv");
-    frame of;
+    sli_ldtk_frame of;
     size_t count;
-    SL_TRY(read_frame(layer, at, &of));
+    SL_TRY(sli_ldtk_read_frame(layer, at, &of));
     if (!cells.value && sli_json_member(layer, "intGrid").value)
         return sli_json_fail(layer, "an LDtk before 0.8 wrote these cells, in a form that is not "
                                     "read: open the project in a newer LDtk and save it");
@@ -133,8 +128,7 @@ static sl_status read_layer(sli_ldtk *reader, const sli_json *layer, sli_ldtk_pl
 
 // --- layers of tiles, where there is no IntGrid
 
-/// Where a tile of a list lies; false where that is no square of the layer.
-static bool find_square(const sli_json *tile, const frame *of, size_t *at) {
+bool sli_ldtk_find_square(const sli_json *tile, const sli_ldtk_frame *of, size_t *at) {
     const sli_json px = sli_json_member(tile, "px");
     const json_t *x = json_array_get(px.value, 0), *y = json_array_get(px.value, 1);
     if (!json_is_integer(x) || !json_is_integer(y)) return false;
@@ -154,8 +148,8 @@ static char square_of_tile(const sli_ldtk_layer *layer, const sli_json *tileset,
 
 /// Puts the tiles of one list into their squares.
 static sl_status read_tile_list(sli_ldtk *reader, const sli_json *list, const sli_json *tileset,
-                                const sli_ldtk_layer *layer, const frame *of, char *squares,
-                                bool *any) {
+                                const sli_ldtk_layer *layer, const sli_ldtk_frame *of,
+                                char *squares, bool *any) {
     struct {
         bool is_known;
         int64_t tile;
@@ -165,7 +159,7 @@ static sl_status read_tile_list(sli_ldtk *reader, const sli_json *list, const sl
         const sli_json tile = sli_json_item(list, i), id = sli_json_member(&tile, "t");
         size_t at;
         if (i % 4096 == 0) SL_TRY(sl_check_cancelled(reader->context));
-        if (!json_is_integer(id.value) || !find_square(&tile, of, &at)) continue;
+        if (!json_is_integer(id.value) || !sli_ldtk_find_square(&tile, of, &at)) continue;
         const int64_t number = json_integer_value(id.value);
         const size_t slot = (size_t)((uint64_t)number % KNOWN);
         if (!known[slot].is_known || known[slot].tile != number) {
@@ -190,11 +184,11 @@ static sl_status read_tiles(sli_ldtk *reader, const sli_json *layer, sli_ldtk_pl
     const sli_json by_hand = sli_json_member(layer, "gridTiles");
     const sli_json by_rules = sli_json_member(layer, "autoLayerTiles");
     const sli_ldtk_layer says = layer_of(reader, layer);
-    frame of;
+    sli_ldtk_frame of;
     bool any = false;
     char *squares;
     if (!json_array_size(by_hand.value) && !json_array_size(by_rules.value)) return SL_OK;
-    SL_TRY(read_frame(layer, at, &of));
+    SL_TRY(sli_ldtk_read_frame(layer, at, &of));
     SL_TRY(sli_tiles_check(reader->context, &reader->tiles, reader->name, 0, "a layer of tiles",
                            (uint64_t)of.columns, (uint64_t)of.rows));
     SL_TRY(sli_tiles_add(reader->context, &reader->tiles, reader->name, of.corner,
@@ -255,7 +249,7 @@ static bool has_values(const sli_json *layer) {
     return any;
 }
 
-static bool has_tiles(const sli_json *layer) {
+bool sli_ldtk_has_tiles(const sli_json *layer) {
     const sli_json by_hand = sli_json_member(layer, "gridTiles");
     const sli_json by_rules = sli_json_member(layer, "autoLayerTiles");
     return json_array_size(by_hand.value) || json_array_size(by_rules.value);
@@ -269,17 +263,42 @@ static bool has_cells(const sli_json *layers) {
         const sli_json layer = sli_json_item(layers, i);
         full |= is_int_grid(&layer) && (says_solid(&layer) || has_values(&layer));
         any |= is_int_grid(&layer);
-        tiles |= is_tiles(&layer) && has_tiles(&layer);
+        tiles |= is_tiles(&layer) && sli_ldtk_has_tiles(&layer);
     }
     return any && (full || !tiles);
 }
 
-static sl_status check_layers(const sli_ldtk *reader, const sli_json *layers) {
+/// Whether the project has entities of this name.
+static bool has_entity(const sli_ldtk *reader, sli_word name) {
+    const sli_json defs = sli_json_member(&reader->project, "defs");
+    const sli_json entities = sli_json_member(&defs, "entities");
+    for (size_t i = 0; i < json_array_size(entities.value); i++) {
+        const sli_json entity = sli_json_item(&entities, i);
+        if (sli_word_is(name, sli_json_text_of(&entity, "identifier"))) return true;
+    }
+    return false;
+}
+
+/// Whether squares without a tile are asked for, and no layer has that name.
+static bool asks_void(const sli_ldtk *reader, const sli_json *layers) {
+    sli_word numbers;
+    if (!reader->options->layers || !sli_layers_ask(reader->options->layers, "void", &numbers))
+        return false;
+    for (size_t i = 0; i < json_array_size(layers->value); i++) {
+        const sli_json layer = sli_json_item(layers, i);
+        if (strcmp(sli_json_text_of(&layer, "__identifier"), "void") == 0) return false;
+    }
+    return true;
+}
+
+static sl_status check_layers(sli_ldtk *reader, const sli_json *layers) {
     const char *list = reader->options->layers;
     const bool cells = has_cells(layers);
+    reader->void_is_solid |= asks_void(reader, layers);
     for (sli_word name; list && sli_layers_next(&list, &name);) {
-        bool known = false;
         sli_word numbers = {0};
+        bool known =
+            has_entity(reader, name) || (reader->void_is_solid && sli_word_is(name, "void"));
         sli_name_list there = {.full = false};
         for (size_t i = 0; i < json_array_size(layers->value); i++) {
             const sli_json layer = sli_json_item(layers, i);
@@ -298,97 +317,6 @@ static sl_status check_layers(const sli_ldtk *reader, const sli_json *layers) {
     return SL_OK;
 }
 
-/// The numbers of a layer's tiles, for the message; sl_free(*out) is the caller's.
-static sl_status list_tiles(const sli_ldtk *reader, const sli_json lists[2], uint32_t **out,
-                            size_t *count) {
-    const size_t all = json_array_size(lists[0].value) + json_array_size(lists[1].value);
-    uint32_t *tiles = sl_alloc_array(reader->context, all, sizeof *tiles);
-    *out = tiles;
-    *count = 0;
-    if (!tiles) return SL_NO_MEMORY;
-    for (size_t k = 0; k < 2; k++)
-        for (size_t i = 0; i < json_array_size(lists[k].value); i++) {
-            const sli_json tile = sli_json_item(&lists[k], i), id = sli_json_member(&tile, "t");
-            const json_int_t number = json_integer_value(id.value);
-            if (number >= 0 && number <= UINT32_MAX) tiles[(*count)++] = (uint32_t)number;
-        }
-    return SL_OK;
-}
-
-/// Whether tiles of these numbers lie at a sixteenth of the squares along the layer's edge at
-/// least. Walls do, and ground; the floor of rooms in rock does not.
-static sl_status lie_at_edge(const sli_json *layer, const sli_json lists[2], const char *numbers,
-                             bool *edge) {
-    const sli_word asked = {numbers, strlen(numbers)};
-    frame of;
-    size_t there = 0, at;
-    SL_TRY(read_frame(layer, (sli_ldtk_place){0}, &of));
-    for (size_t k = 0; k < 2; k++)
-        for (size_t i = 0; i < json_array_size(lists[k].value); i++) {
-            const sli_json tile = sli_json_item(&lists[k], i), id = sli_json_member(&tile, "t");
-            if (!find_square(&tile, &of, &at)) continue;
-            const size_t x = at % (size_t)of.columns, y = at / (size_t)of.columns;
-            there += (!x || !y || x + 1 == (size_t)of.columns || y + 1 == (size_t)of.rows) &&
-                     sli_numbers_have(asked, (uint64_t)json_integer_value(id.value));
-        }
-    *edge = 16 * there >= (size_t)(2 * (of.columns + of.rows));
-    return SL_OK;
-}
-
-/// Keeps the layer that the example names. Where tiles cover it, it has its tiles but the most
-/// frequent one.
-static sl_status keep_example(sli_ldtk *reader, const sli_json *layer, const sli_json lists[2],
-                              const uint32_t *tiles, size_t count) {
-    const sli_json width = sli_json_member(layer, "__cWid"),
-                   height = sli_json_member(layer, "__cHei");
-    const double squares = sli_json_number_or_0(&width) * sli_json_number_or_0(&height);
-    char *text = reader->tiles_asked;
-    size_t most;
-    *reader->tiles_name = *text = '\0';
-    keep_name(reader->tiles_name, sizeof reader->tiles_name,
-              sli_json_text_of(layer, "__identifier"));
-    if ((double)count < squares) return SL_OK;
-    SL_TRY(sli_numbers_write(reader->context, tiles, count, true, &most, text + 1,
-                             sizeof reader->tiles_asked - 1));
-    bool edge = false;
-    if (text[1]) SL_TRY(lie_at_edge(layer, lists, text + 1, &edge));
-    if (text[1]) *text = ':';
-    reader->tiles_unsure = 5 * most < 3 * count || !edge;
-    return SL_OK;
-}
-
-/// Adds a layer of tiles, with their numbers where these are few: "Tiles:0-5".
-static sl_status add_tile_name(sli_ldtk *reader, const char *name, const uint32_t *tiles,
-                               size_t count) {
-    char text[160], numbers[48];
-    size_t most;
-    SL_TRY(sli_numbers_write(reader->context, tiles, count, false, &most, numbers, sizeof numbers));
-    const bool few = *numbers && strlen(numbers) < 24;
-    snprintf(text, sizeof text, few ? "%.80s:%s" : "%.80s", name, numbers);
-    sli_name_list_add(&reader->tile_names, (sli_word){text, strlen(text)});
-    return SL_OK;
-}
-
-/// Remembers a layer of tiles, for the message that nothing says what is solid.
-static sl_status name_tiles(sli_ldtk *reader, const sli_json *layer) {
-    const char *name = sli_json_text_of(layer, "__identifier");
-    const sli_json lists[2] = {sli_json_member(layer, "gridTiles"),
-                               sli_json_member(layer, "autoLayerTiles")};
-    const bool stands = sli_game_kind_of(name) >= SLI_GAME_STANDS;
-    uint32_t *tiles;
-    size_t count;
-    if (!has_tiles(layer)) return SL_OK;
-    sl_status status = list_tiles(reader, lists, &tiles, &count);
-    if (status == SL_OK && (!*reader->tiles_name || (stands && !reader->tiles_stand))) {
-        reader->tiles_stand = stands;
-        status = keep_example(reader, layer, lists, tiles, count);
-    }
-    if (status == SL_OK) status = add_tile_name(reader, name, tiles, count);
-    reader->tiles_named++;
-    sl_free(reader->context, tiles);
-    return status;
-}
-
 sl_status sli_ldtk_read_layers(sli_ldtk *reader, const sli_json *layers, sli_ldtk_place at) {
     size_t count;
     said all = {.solid = false};
@@ -401,7 +329,7 @@ sl_status sli_ldtk_read_layers(sli_ldtk *reader, const sli_json *layers, sli_ldt
         all.plain |= is_int_grid(&layer) && is_plain(&layer);
     }
     const bool cells = has_cells(layers);
-    const sli_ldtk_walls walls = reader->options->layers ? SLI_LDTK_NO_WALLS
+    const sli_ldtk_walls walls = reader->options->layers ? SLI_LDTK_ASKED
                                  : cells                 ? SLI_LDTK_STOPPING
                                                          : SLI_LDTK_NAMED;
     for (size_t i = 0; i < count; i++) {
@@ -412,7 +340,7 @@ sl_status sli_ldtk_read_layers(sli_ldtk *reader, const sli_json *layers, sli_ldt
                                ? sli_layers_ask(reader->options->layers,
                                                 sli_json_text_of(&layer, "__identifier"), &numbers)
                                : !cells;
-        if (is_tiles(&layer)) SL_TRY(name_tiles(reader, &layer));
+        if (is_tiles(&layer)) SL_TRY(sli_ldtk_keep_drawn(reader, &layer, at));
         SL_TRY(sli_ldtk_read_entities(reader, &layer, at, walls));
         if (is_taken(reader, &layer, all) && (cells || reader->options->layers))
             SL_TRY(read_layer(reader, &layer, at));

@@ -44,7 +44,7 @@ static void test_values(void **state) {
     (void)state;
     const char *nameless = PROJECT("", LEVEL("A", "0", "0", GRID("Any", "0,1,2,0,0,0", "")));
     assert_noted_of(sli_map_read_ldtk, NULL, nameless, strlen(nameless), TWO_TILES,
-                    "f: values: solid, as none has a name: 1, 2; --layers Any:1+3-5 takes");
+                    "f: values: solid, as none has a name: 1, 2; --layers Any:1+2 takes");
     // Without names all values but 0 are solid; with names those that say so.
     assert_walls(PROJECT("", LEVEL("A", "0", "0", GRID("Any", "0,1,2,0,0,0", ""))), NULL, NULL,
                  TWO_TILES);
@@ -94,7 +94,8 @@ static void test_values_by_meaning(void **state) {
                        VALUE("1", "Ceiling") "," VALUE("2", "Ground") "," VALUE("3", "Wall")),
                  NULL, NULL, TWO_TILES);
     assert_refused(NAMED("Any", "0,1,1,1,1,1", VALUE("1", "grass")),
-                   "f: the values grass (1) may be walls or open ground; --layers Any:1+3-5 takes");
+                   "f: the values grass (1) may be walls or open ground; if they are walls: "
+                   "sightline check 'f' --map 'A' --layers 'Any' -o map.png");
     assert_no_such(NAMED("Any", "0,1,1,1,1,1", ""), NULL, "Any:x",
                    "f: layer 'Any:x': expected values such as 1+3-5");
 }
@@ -121,9 +122,8 @@ static void test_values_by_what_stands(void **state) {
     assert_walls(STONES(STAND("0, 0") "," STAND("0, 8") "," STAND("8, 8")), NULL, NULL, TWO_TILES);
     assert_refused(
         STONES(STAND("0, 0") "," STAND("0, 8")),
-        "f: level A: every cell is solid, so there are no walls; --layers Any:1+3-5 takes "
-        "the values of these numbers alone, as in: sightline check 'f' --map 'A' --layers "
-        "'Any:1' -o map.png");
+        "f: level A: every cell is solid, so there are no walls; to take values by their numbers: "
+        "sightline check 'f' --map 'A' --layers 'Any:1' -o map.png");
 }
 
 #define TILE(px, id) "{\"px\": [" px "], \"t\": " id "}"

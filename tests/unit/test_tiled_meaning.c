@@ -40,7 +40,7 @@ static void assert_refused_json(const char *text, const char *message) {
     assert_refused_of(sli_map_read_tmj, NULL, text, strlen(text), SL_BAD_INPUT, message);
 }
 
-#define UNSAID                 "f:1: nothing in it says what is solid; --layers NAME takes a layer as solid"
+#define UNSAID                 "f:1: nothing in it says what is solid; "
 #define WIDE(body)             "<map width='6' height='4' tilewidth='8' tileheight='8'>\n" body "</map>"
 #define WIDE_LAYER(name, data) "<layer name='" name "' width='6' height='4'>\n" CSV(data) "</layer>"
 #define RING                   "1,1,1,1,1,1, 1,0,0,0,0,1, 1,0,0,0,0,1, 1,1,1,1,1,1"
@@ -68,45 +68,45 @@ static void test_guess(void **state) {
                                "tileheight='8'/>" WIDE_LAYER("Bottom", GRASS));
     assert_walls(dungeon, RING_WALLS);
     // Of what is named for ground that tile is none.
-    assert_refused(WIDE("<tileset firstgid='1' name='dungeon_tiles' tilewidth='8' "
-                        "tileheight='8'/>" WIDE_LAYER("Ground/terrain", GRASS)),
-                   "f:1: nothing in it says what is solid; --layers NAME takes a layer as solid");
+    assert_refused(
+        WIDE("<tileset firstgid='1' name='dungeon_tiles' tilewidth='8' "
+             "tileheight='8'/>" WIDE_LAYER("Ground/terrain", GRASS)),
+        "f:1: nothing in it says what is solid; to take a layer as solid: sightline check "
+        "'f' --layers 'Ground/terrain:1-6+8-9' -o map.png");
     // The same tiles as a meadow; a layer beside the floor; a layer that is full.
     assert_refused(WIDE(SET WIDE_LAYER("Ground", GRASS)), UNSAID);
     assert_refused(WIDE(SET WIDE_LAYER("Tile Layer 1", GRASS)), UNSAID);
     assert_refused(MAP(SET LAYER("floor", CSV("3,0,0,4,4,5")) LAYER("b", CSV("3,9,0,4,0,0"))),
-                   UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers 'b' -o "
+                   UNSAID "to take a layer as solid: sightline check 'f' --layers 'b' -o "
                           "map.png; layers: 'floor' (4 tiles), 'b' (3 tiles)");
     assert_refused(MAP(SET LAYER("a", CSV("1,1,1,1,1,1")) "<group name='g'><objectgroup name='b'/>"
                                                           "</group>"),
                    UNSAID);
     // Of a full layer the command asks for the tiles but the most frequent one.
     assert_refused(WIDE(SET WIDE_LAYER("Ground", GRASS)),
-                   UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers "
+                   UNSAID "to take a layer as solid: sightline check 'f' --layers "
                           "'Ground:1-6+8-9' -o map.png; layers: 'Ground' (24 tiles)");
     assert_refused(MAP(SET LAYER("Ground", FULL)),
-                   UNSAID ", NAME:28+33-35 tiles of it (all tiles of 'Ground' are the same: draw "
-                          "walls in a layer Collision); layers: 'Ground' (6 tiles)");
-    // The command names a layer only where it is likely to be right, and tiles where most of the
-    // layer is one tile.
+                   UNSAID "all tiles of 'Ground' are the same: draw walls in a layer Collision; "
+                          "layers: 'Ground' (6 tiles)");
+    // The command says where it is not sure, and names tiles where most of the layer is one tile.
     assert_refused(MAP(SET LAYER("a", TILES) LAYER("b", CSV("0,0,0,2,2,0"))), UNSAID
-                   ", NAME:28+33-35 tiles of it; no name says which one: look at them in Tiled; "
+                   "perhaps, if a look shows so: sightline check 'f' --layers 'a' -o map.png; "
                    "layers: 'a' (2 tiles), 'b' (2 tiles)");
     assert_refused(MAP(SET LAYER("Tile Layer in the north of the town with all its harbour", TILES)
                            LAYER("sand", CSV("0,0,0,2,2,0"))),
-                   UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers "
+                   UNSAID "to take a layer as solid: sightline check 'f' --layers "
                           "'Tile Layer in the north of the town with all its harbour' -o map.png");
     assert_refused(MAP(SET LAYER("a", TILES) LAYER("sand", CSV("0,0,0,2,2,0"))),
-                   UNSAID ", NAME:28+33-35 tiles of it, as in: sightline check 'f' --layers 'a' -o "
+                   UNSAID "to take a layer as solid: sightline check 'f' --layers 'a' -o "
                           "map.png; layers: 'a' (2 tiles), 'sand' (2 tiles)");
     // No command can name a layer whose name has a comma, a quote or a blank at its end.
     assert_refused(MAP(SET LAYER("a, b", TILES)), UNSAID
-                   ", NAME:28+33-35 tiles of it; to take 'a, b', give it a name in Tiled "
+                   "to take 'a, b', give it a name in Tiled "
                    "without commas, quotes and blanks at its ends; layers: 'a, b' (2 tiles)");
-    assert_refused(MAP(SET LAYER("b ", TILES)),
-                   UNSAID ", NAME:28+33-35 tiles of it; to take 'b ',");
+    assert_refused(MAP(SET LAYER("b ", TILES)), UNSAID "to take 'b ',");
     assert_refused(MAP(SET LAYER("Ground", CSV("1,1,2,2,3,3"))),
-                   UNSAID ", NAME:28+33-35 tiles of it; which of the tiles 1-3 of 'Ground' are "
+                   UNSAID "which of the tiles 1-3 of 'Ground' are "
                           "solid, only its picture shows: a tile's number is its ID in Tiled + the "
                           "tileset's firstgid; layers: 'Ground' (6 tiles)");
     // One that starts inside the wall says that the guess is wrong.
@@ -117,7 +117,7 @@ static void test_guess(void **state) {
     assert_refused(
         MAP(SET LAYER("walls", CSV("1,1,1,1,1,1"))),
         "f:1: layer 'walls' has a tile on every square, so all is solid and there are no "
-        "walls; name its tiles that are solid, as in --layers 'walls:28+33-35'");
+        "walls; name its tiles that are solid, as in --layers 'walls'");
     assert_refused(MAP(SET LAYER("a", CSV("0,0,0,0,0,0"))),
                    "f:1: nothing in it says what is solid; all its layers are empty");
     assert_refused(MAP(""), "f:1: nothing in it says what is solid; it has no layers");
@@ -274,12 +274,13 @@ static void test_few_solid_tiles(void **state) {
     "<layer name='ground' width='10' height='10'>" CSV(first ROW ROW ROW ROW ROW ROW ROW ROW ROW   \
                                                        "3,3,3,3,3,3,3,3") "</layer></map>"
 #define ROW "3,3,3,3,3,3,3,3,3,3,"
-    assert_noted_of(sli_map_read_tmx, NULL, HUNDRED("1,3,"), strlen(HUNDRED("1,3,")),
-                    "wall 8 80 80 80\nwall 0 72 8 72\nwall 8 72 8 80\nwall 0 0 80 0\n"
-                    "wall 0 0 0 72\nwall 80 0 80 80\n",
-                    "f: only 1 of 100 tiles says that it is solid, and nothing else does: if a "
-                    "layer is solid, --layers NAME takes it, NAME:28+33-35 tiles of it: 'ground' "
-                    "(100 tiles)\n");
+    assert_noted_of(
+        sli_map_read_tmx, NULL, HUNDRED("1,3,"), strlen(HUNDRED("1,3,")),
+        "wall 8 80 80 80\nwall 0 72 8 72\nwall 8 72 8 80\nwall 0 0 80 0\n"
+        "wall 0 0 0 72\nwall 80 0 80 80\n",
+        "f: only 1 of 100 tiles says that it is solid, and nothing else does; to take a "
+        "layer as solid: sightline check 'f' --layers 'ground:1' -o map.png; layers of "
+        "tiles: 'ground' (100 tiles)\n");
 }
 
 /// A property on nearly all tiles, the floor's too, says nothing.
@@ -288,8 +289,9 @@ static void test_all_solid(void **state) {
     const char *both = MAP(SET_OF("<tile id='0'>" TRUE("solid") "</tile>") LAYER("Ground", FULL)
                                LAYER("Walls", TILES));
     assert_walls(both, TWO_TILES);
-    assert_refused(MAP(SET_OF("<tile id='0'>" TRUE("solid") "</tile>") LAYER("Ground", FULL)),
-                   "f:1: nearly all of its tiles say that they are solid; --layers NAME takes a");
+    assert_refused(
+        MAP(SET_OF("<tile id='0'>" TRUE("solid") "</tile>") LAYER("Ground", FULL)),
+        "f:1: nearly all of its tiles say that they are solid; all tiles of 'Ground' are");
 }
 
 /// What is no whole map is named.
@@ -583,10 +585,8 @@ static void test_rules(void **state) {
     (void)state;
     const char *rules = MAP(SET LAYER("regions", CSV("1,1,1,1,1,1")) LAYER(
         "input2_Walls", CSV("3,0,0,4,4,5")) LAYER("output_Walls", CSV("3,0,0,4,4,5")));
-    assert_refused(rules,
-                   "f:1: its layers input_... and output_... are rules by which Tiled draws "
-                   "other maps: read a map that they have drawn; --layers NAME takes a layer "
-                   "of this one as solid");
+    assert_refused(rules, "f:1: its layers input_... and output_... are rules by which Tiled draws "
+                          "other maps: read a map that they have drawn");
     // One of the two words alone, or one that is part of a longer word, tells nothing.
     const char *levels[] = {
         MAP(SET LAYER("input_Walls", CSV("3,0,0,4,4,5"))),

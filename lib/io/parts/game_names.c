@@ -30,10 +30,11 @@ static const char *const ground_words[] = {
     "straße",   "weg",      "chemin", "camino", "地面",     "草地",
 };
 static const char *const pass_words[] = {
-    "bridge", "ladder",    "stair",    "step",    "door",  "gate",       "air",     "empty",
-    "open",   "walkable",  "passable", "void",    "none",  "nothing",    "rope",    "vine",
-    "climb",  "climbable", "spawn",    "start",   "exit",  "zone",       "trigger", "coin",
-    "item",   "player",    "enemy",    "emitter", "trail", "checkpoint", "finish",
+    "bridge", "ladder", "stair",    "step",      "door",       "gate",     "air",
+    "empty",  "open",   "walkable", "passable",  "void",       "none",     "nothing",
+    "rope",   "vine",   "climb",    "climbable", "leiter",     "escalera", "scala",
+    "spawn",  "start",  "exit",     "zone",      "trigger",    "coin",     "item",
+    "player", "enemy",  "emitter",  "trail",     "checkpoint", "finish",
 };
 /// What stands about and is no wall, unless a word for solid is beside it.
 static const char *const open_words[] = {
@@ -85,15 +86,16 @@ static const char *const inside_words[] = {
     "roguelike", "rogue",   "cellar", "prison", "labyrinth", "maze",     "underground",
 };
 static const char *const other_words[] = {
-    "enemy",    "enemies",     "npc",         "monster",    "mob",      "goblin",   "orc",
-    "skeleton", "zombie",      "slime",       "bat",        "rat",      "spider",   "boss",
-    "guard",    "item",        "coin",        "potion",     "trigger",  "event",    "spawner",
-    "pickup",   "loot",        "trap",        "animal",     "villager", "merchant", "bullet",
-    "powerup",  "collectible", "collectable", "gem",        "creature", "critter",  "ghost",
-    "warp",     "teleport",    "teleporter",  "transition", "dialog",   "dialogue", "sound",
-    "music",    "foe",         "hostile",     "minion",     "weapon",   "ammo",     "health",
-    "bandit",   "wolf",        "dragon",      "troll",      "soldier",  "dialogo",  "diálogo",
-    "finish",   "checkpoint",  "waypoint",    "route",      "goomba",   "koopa",    "turtle"};
+    "enemy",    "enemies", "npc",         "monster",     "mob",        "goblin",   "orc",
+    "skeleton", "zombie",  "slime",       "bat",         "rat",        "spider",   "boss",
+    "guard",    "item",    "coin",        "potion",      "trigger",    "event",    "spawner",
+    "pickup",   "loot",    "trap",        "animal",      "villager",   "merchant", "trader",
+    "bullet",   "powerup", "collectible", "collectable", "gem",        "creature", "critter",
+    "ghost",    "warp",    "teleport",    "teleporter",  "transition", "dialog",   "dialogue",
+    "sound",    "music",   "foe",         "hostile",     "minion",     "weapon",   "ammo",
+    "health",   "bandit",  "wolf",        "dragon",      "troll",      "soldier",  "dialogo",
+    "diálogo",  "finish",  "checkpoint",  "waypoint",    "route",      "goomba",   "koopa",
+    "turtle"};
 /// Others that may well stand in the way.
 static const char *const placed_words[] = {"chest",  "key",   "crate",  "shop",   "sign",
                                            "camera", "light", "turret", "switch", "button"};
@@ -180,6 +182,17 @@ bool sli_game_says_other(const char *name) {
 bool sli_game_says_passing(const char *name) {
     for (sli_name_word word; sli_word_next(&name, &word);)
         if (IS_ONE_OF(&word, other_words)) return true;
+    return false;
+}
+
+bool sli_game_says_furniture(const char *name) {
+    static const char *const words[] = {"icon",      "interaction", "interactive",
+                                        "interface", "hud",         "gui"};
+    if (strncasecmp(name, "object", 6) == 0 || strncasecmp(name, "sprite", 6) == 0 ||
+        strncasecmp(name, "entit", 5) == 0)
+        return true;
+    for (sli_name_word word; sli_word_next(&name, &word);)
+        if (IS_ONE_OF(&word, words)) return true;
     return false;
 }
 

@@ -36,6 +36,10 @@ bool sli_game_says_other(const char *name);
 /// The same without what may stand in the way, as chests do.
 bool sli_game_says_passing(const char *name);
 
+/// Whether the name is of what stands in rooms or walks there, or is shown over them: objects,
+/// sprites, icons.
+bool sli_game_says_furniture(const char *name);
+
 /// Whether a text is true or false: "yes", "1", "full"; "no", "0", "none" ...
 bool sli_game_truth(const char *text, bool *truth);
 

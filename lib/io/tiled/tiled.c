@@ -81,7 +81,9 @@ static sli_tiled_word word_of_layer(const sli_tiled_reader *reader, const sli_js
     if (said != SLI_TILED_UNSAID) return said;
     switch (reader->by) {
     case SLI_TILED_BY_WORD:
-        if (sli_game_says_stops(name) || map_names(reader, name)) return SLI_TILED_SOLID;
+        if (sli_game_says_stops(name) || map_names(reader, name) ||
+            (reader->borders && sli_tiled_is_border(layer)))
+            return SLI_TILED_SOLID;
         if (reader->walls_are_pictures && !objects) return own->word;
         return (objects ? own->kind : sli_game_kind_of(name)) == SLI_GAME_SOLID ? SLI_TILED_SOLID
                                                                                 : own->word;

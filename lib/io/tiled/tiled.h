@@ -273,11 +273,13 @@ typedef struct sli_tiled_reader {
     sli_tiled_by by;
     sli_game_kind best;               ///< by name: of the layers taken
     size_t guess_layer;               ///< by a guess: the layer,
+    bool guess_only;                  ///< which is the only one that is not full
     uint32_t guessed;                 ///< the tile that is taken as solid (0: empty squares)
     bool guessed_all;                 ///< or all tiles are but that one
     bool bare;                        ///< the layer at hand has objects that say nothing
     bool void_is_solid;               ///< as the options ask
     bool walls_are_pictures;          ///< of layers that are named for what stops
+    bool borders;                     ///< tiles say what is solid, so objects named for borders do
     const char *believed_not;         ///< the first layer whose tiles say too much
     const char *guess_why;            ///< NULL where nothing can be guessed
     uint64_t tile_shapes, tile_walls; ///< that the layers' tiles draw
@@ -382,7 +384,7 @@ sl_status sli_tiled_check_squares(const sli_tiled_reader *reader, const sli_json
                                   int64_t columns, int64_t rows);
 
 /// Whether layers of tiles named for walls are a picture beside layers that stop:
-/// reader->walls_are_pictures.
+/// reader->walls_are_pictures; and whether objects named for borders count: reader->borders.
 sl_status sli_tiled_look_beside(sli_tiled_reader *reader);
 /// Whether the tiles of a layer that is named for walls decide which of them are solid:
 /// own->tiles_decide, own->said. To be asked where the name is all that says so.
@@ -395,7 +397,7 @@ bool sli_tiled_all_solid(const sli_tiled_sets *sets, const uint32_t *gids, size_
 
 typedef enum sli_tiled_stand {
     SLI_TILED_STAND_UNKNOWN,
-    SLI_TILED_STAND_ON_TILES, ///< all small objects, three at least
+    SLI_TILED_STAND_ON_TILES, ///< four of five small objects, of three at least
     SLI_TILED_STAND_ON_EMPTY, ///< the same, on squares without tiles
 } sli_tiled_stand;
 
@@ -403,9 +405,13 @@ typedef enum sli_tiled_stand {
 bool sli_tiled_is_bare(const sli_json *object, const sli_tiled_shape *shape);
 /// Whether these are at least four in a layer, and half of its objects.
 bool sli_tiled_has_bare(const sli_json *layer);
-/// Where the map's objects stand on a layer of tiles that covers all of it.
+/// Whether a layer of such objects is named for borders: they count beside shapes of tiles.
+bool sli_tiled_is_border(const sli_json *layer);
+/// Where the map's objects stand on a layer of tiles that covers all of it. *on_most: most stand on
+/// this tile, of three at least; 0 is a square without one.
 sli_tiled_stand sli_tiled_where_objects_stand(const sli_tiled_reader *reader, const uint32_t *gids,
-                                              size_t columns, size_t rows);
+                                              size_t columns, size_t rows, uint32_t most,
+                                              bool *on_most);
 
 // --- what is solid where nothing says it (tiled_meaning.c)
 
@@ -420,16 +426,80 @@ sl_status sli_tiled_check_rules(const sli_tiled_reader *reader);
 sl_status sli_tiled_find_meaning(sli_tiled_reader *reader);
 /// SL_BAD_INPUT where a start stands on what was guessed to be solid.
 sl_status sli_tiled_check_guess(const sli_tiled_reader *reader);
+// --- the guess (tiled_guess.c)
+
+/// Whether all that is drawn is one layer that is named for a floor, and has gaps.
+bool sli_tiled_only_floor(const sli_tiled_reader *reader);
+/// Chooses a layer and reads it: reader->guess_why is not NULL where it tells.
+sl_status sli_tiled_begin_guess(sli_tiled_reader *reader);
 /// Looks at the tiles of a block of the layer that is guessed from.
 sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t columns,
                           size_t rows);
 
-// --- what is told (tiled_told.c)
+// --- what to type (tiled_offer.c)
 
+/// What to do about a layer whose name no command can have.
+#define SLI_TILED_RENAME "give it a name in Tiled without commas, quotes and blanks at its ends"
+
+/// Room for "+4294967295-4294967295": what does not fit is left out of a text of numbers.
+enum { SLI_TILED_NUMBER_ROOM = 24 };
+
+/// Layers for a message: 'Ground' (2500 tiles), 'Things' (3 objects).
+typedef struct sli_tiled_layer_text {
+    char text[400];
+    size_t count, length;
+} sli_tiled_layer_text;
+
+void sli_tiled_add_layer(sli_tiled_layer_text *out, const sli_tiled_seen *layer);
+/// The layers from which something is taken, or the others that have anything.
+sli_tiled_layer_text sli_tiled_list_layers(const sli_tiled_reader *reader, bool taken);
+/// Whether a layer's name can stand in a command: --layers has commas between names, and no blanks
+/// at their ends.
+bool sli_tiled_can_be_typed(const char *name);
+
+/// How likely it is that a layer of which nothing is said is solid.
+enum {
+    SLI_TILED_NOT_SOLID,
+    SLI_TILED_SCRAPS,
+    SLI_TILED_RANK_FULL,
+    SLI_TILED_PARTIAL,
+    SLI_TILED_BESIDE_STARTS, ///< starts stand where it has no tiles
+    SLI_TILED_NAMED,
+};
+
+/// How many starts stand on tiles of a layer, of these numbers if any are asked for, and how many
+/// do not. In orthogonal and isometric maps.
+sl_status sli_tiled_count_starts(const sli_tiled_reader *reader, const sli_tiled_seen *seen,
+                                 sli_word numbers, size_t counts[2]);
+
+typedef struct sli_tiled_example {
+    const sli_tiled_seen *layer; ///< the first of those that are most likely solid
+    int rank;
+    size_t likely; ///< layers of tiles with gaps that may well be solid
+} sli_tiled_example;
+
+/// The layer to name in an example; NULL where none has anything. Layers that are taken may be left
+/// out.
+sl_status sli_tiled_find_example(const sli_tiled_reader *reader, bool taken_too,
+                                 sli_tiled_example *out);
+/// Where a layer is full, all of it would be solid: its tiles but the most frequent one, as
+/// ":28+33-35"; "" where there are none, or the layer has squares without tiles. *mostly: that one
+/// covers three fifths of it.
+sl_status sli_tiled_choose_tiles(const sli_tiled_reader *reader, const sli_tiled_seen *seen,
+                                 bool *mostly, char *text, size_t size);
+/// "; to take ...: " and a command that takes the example; or why there is none.
+sl_status sli_tiled_say_example(const sli_tiled_reader *reader, sli_tiled_example best, char *text,
+                                size_t size);
 /// SL_BAD_INPUT, with the layers and what to type.
 sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why);
 /// The same where nothing is a wall: a layer that is solid everywhere has no edge.
 sl_status sli_tiled_fail_no_walls(const sli_tiled_reader *reader);
+
+// --- what is told (tiled_told.c)
+
+/// The names of the layers that something is taken of, as --layers has them; "" where one cannot be
+/// typed.
+void sli_tiled_list_taken(const sli_tiled_reader *reader, char *text, size_t size);
 /// Tells what is solid and by what, and which layers are not.
 sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader);
 

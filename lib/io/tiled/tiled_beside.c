@@ -1,4 +1,4 @@
-/// Three doubts about what a map of Tiled says, which only a look at all of its tiles settles.
+/// Four doubts about what a map of Tiled says, which only a look at all of its tiles settles.
 ///
 /// - Layers of tiles named for walls may be their picture only. Where others say what stops a
 ///   player (a layer "collisions", objects), and these lie on at least a third of the pictured
@@ -9,6 +9,8 @@
 ///   property that was set on all tiles. It would leave no room to stand in.
 /// - A layer named for walls has tiles that say that they are solid, and others that do not. If the
 ///   first are at least half, a game asks the tiles: the others are doors that stand open.
+/// - Objects named for borders, of which nothing else is said, count where tiles say what is solid
+///   or have shapes to collide with. Alone they are a weaker word, as names of other layers are.
 ///
 /// Time O(tiles + objects).
 #include "io/tiled/tiled.h"
@@ -218,12 +220,21 @@ static sl_status find_tiles(const sli_tiled_reader *reader, const sli_json *pare
     return SL_OK;
 }
 
+/// Whether some tile has shapes to collide with.
+static bool any_shapes(const sli_tiled_sets *sets) {
+    for (size_t i = 0; i < sets->sets.count; i++)
+        for (size_t k = 0; k < sets->sets.items[i].tiles.count; k++)
+            if (sets->sets.items[i].tiles.items[k].shapes) return true;
+    return false;
+}
+
 sl_status sli_tiled_look_beside(sli_tiled_reader *reader) {
     const sli_json width = sli_json_member(reader->map, "width");
     const sli_json height = sli_json_member(reader->map, "height");
     const sli_json infinite = sli_json_member(reader->map, "infinite");
     const double columns = sli_json_number_or_0(&width), rows = sli_json_number_or_0(&height);
     bool found = false;
+    reader->borders = any_says(&reader->sets) || any_shapes(&reader->sets);
     if (reader->options->layers || sli_json_true(&infinite, NULL) ||
         reader->lattice.orientation != SLI_TILED_ORTHOGONAL || !(columns >= 1 && rows >= 1) ||
         columns > INT32_MAX || rows > INT32_MAX || !(reader->lattice.tile.x > 0) ||

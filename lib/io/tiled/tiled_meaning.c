@@ -2,231 +2,12 @@
 ///
 /// After the firm words come weaker ones, and the first that gives anything decides: names of
 /// layers that stand for something solid (platforms, trees), terrains named Wall, tilesets named
-/// walls, objects without a name, type or property. At last one layer is looked at, and only rules
-/// that hold for few maps count:
-///
-/// - Where the only layer of tiles is named for a floor, there is a wall where it has no tile. So
-///   it is where one layer is named for where one walks ("walkable").
-/// - Where the map or a tileset is named for a dungeon or a sewer, and one tile covers at least
-///   half of the lowest layer and of its edge, that tile is rock, unless the layer is named for
-///   ground or floor.
-/// - Where three or more objects stand on the only layer, all on squares without tiles or all on
-///   tiles, what they do not stand on is solid.
-/// - Where the only layer has tiles all around its edge, or below and not above, and is empty for
-///   a good part, the tiles are walls or the ground of a platformer. So is the only layer named for
-///   ground, if all layers together leave air above it.
-/// - Where the only layer is full, and its most frequent tile covers half of it but not the edge,
-///   that tile is a floor, and the others are walls, if 19 of 20 of them are as those on the edge.
+/// walls, objects without a name, type or property. At last a guess from one layer (tiled_guess.c).
 ///
 /// All others are refused, with the layers and what to type: a meadow's grass is no wall.
 #include "io/tiled/tiled.h"
 
 #include "io/io_formats.h"
-
-#include <stdlib.h>
-
-// --- the guess
-
-/// A block as the rules look at it.
-typedef struct look {
-    const uint32_t *gids;
-    size_t columns, rows;
-} look;
-
-static uint32_t tile_at(const look *at, size_t column, size_t row) {
-    return at->gids[row * at->columns + column] & SLI_TILED_TILE;
-}
-
-/// How many squares of a row have a tile.
-static size_t tiles_of_row(const look *at, size_t row) {
-    size_t count = 0;
-    for (size_t i = 0; i < at->columns; i++) count += tile_at(at, i, row) != 0;
-    return count;
-}
-
-/// How many squares of the edge have this tile, or any other than it.
-static size_t on_edge(const look *at, uint32_t gid) {
-    size_t count = 0;
-    for (size_t i = 0; i < at->columns; i++)
-        count += (size_t)(tile_at(at, i, 0) == gid) + (tile_at(at, i, at->rows - 1) == gid);
-    for (size_t i = 0; i < at->rows; i++)
-        count += (size_t)(tile_at(at, 0, i) == gid) + (tile_at(at, at->columns - 1, i) == gid);
-    return count;
-}
-
-static int compare_gids(const void *left, const void *right) {
-    const uint32_t *a = left, *b = right;
-    return (*a > *b) - (*a < *b);
-}
-
-/// The most frequent tile, the lowest of those, and how often it is there; 0 is an empty square.
-static sl_status find_most(sl_context *context, const uint32_t *gids, size_t count, uint32_t *gid,
-                           size_t *most) {
-    uint32_t *sorted = sl_alloc_array(context, count, sizeof *sorted);
-    if (!sorted) return SL_NO_MEMORY;
-    for (size_t i = 0; i < count; i++) sorted[i] = gids[i] & SLI_TILED_TILE;
-    qsort(sorted, count, sizeof *sorted, compare_gids);
-    *most = 0;
-    for (size_t i = 0, next; i < count; i = next) {
-        for (next = i; next < count && sorted[next] == sorted[i]; next++) continue;
-        if (next - i <= *most) continue;
-        *most = next - i;
-        *gid = sorted[i];
-    }
-    sl_free(context, sorted);
-    return SL_OK;
-}
-
-static bool is_inside(const sli_tiled_reader *reader) {
-    bool inside = sli_game_says_inside(sl_path_name(reader->map->file->name));
-    for (size_t i = 0; i < reader->sets.sets.count; i++)
-        inside |= reader->sets.sets.items[i].inside;
-    return inside;
-}
-
-/// The layers of tiles that are no pictures, and no places that one passes. *first: the number of
-/// the first one.
-static size_t count_plain(const sli_tiled_reader *reader, size_t *first) {
-    size_t count = 0;
-    for (size_t i = reader->seen.count; i-- > 0;) {
-        const sli_tiled_seen *layer = &reader->seen.items[i];
-        if (layer->objects || !layer->count || layer->kind == SLI_GAME_DRAWN ||
-            layer->kind == SLI_GAME_PASS)
-            continue;
-        count++;
-        *first = i;
-    }
-    return count;
-}
-
-/// How many squares have tiles of which some lie on the edge.
-static sl_status count_as_edge(sl_context *context, const look *at, size_t *count) {
-    const size_t edge = 2 * (at->columns + at->rows);
-    uint32_t *gids = sl_alloc_array(context, edge, sizeof *gids), *end = gids;
-    if (!gids) return SL_NO_MEMORY;
-    for (size_t i = 0; i < at->columns; i++) {
-        *end++ = tile_at(at, i, 0);
-        *end++ = tile_at(at, i, at->rows - 1);
-    }
-    for (size_t i = 0; i < at->rows; i++) {
-        *end++ = tile_at(at, 0, i);
-        *end++ = tile_at(at, at->columns - 1, i);
-    }
-    qsort(gids, edge, sizeof *gids, compare_gids);
-    *count = 0;
-    for (size_t i = 0; i < at->columns * at->rows; i++) {
-        const uint32_t own = at->gids[i] & SLI_TILED_TILE;
-        *count += bsearch(&own, gids, edge, sizeof *gids, compare_gids) != NULL;
-    }
-    sl_free(context, gids);
-    return SL_OK;
-}
-
-/// The number of the only layer that is named for ground, where the layers of tiles that are no
-/// pictures leave two fifths of the squares empty; that of no layer else.
-static size_t find_ground(const sli_tiled_reader *reader) {
-    size_t found = reader->seen.count, grounds = 0;
-    uint64_t tiles = 0, squares = 0;
-    for (size_t i = 0; i < reader->seen.count; i++) {
-        const sli_tiled_seen *layer = &reader->seen.items[i];
-        if (layer->objects || layer->kind == SLI_GAME_DRAWN) continue;
-        tiles += layer->count;
-        if (layer->kind != SLI_GAME_GROUND || !layer->count) continue;
-        found = i;
-        squares = layer->squares;
-        grounds++;
-    }
-    return grounds == 1 && 5 * tiles <= 3 * squares ? found : reader->seen.count;
-}
-
-/// Whether all that is drawn is one layer that is named for a floor, and has gaps.
-static bool only_floor(const sli_tiled_reader *reader) {
-    size_t first;
-    if (count_plain(reader, &first) != 1) return false;
-    const sli_tiled_seen *layer = &reader->seen.items[first];
-    return layer->kind == SLI_GAME_FLOOR && layer->count < layer->squares;
-}
-
-/// Whether a layer of tiles says where one walks, and not everywhere.
-static bool says_walkable(const sli_tiled_seen *layer) {
-    return !layer->objects && layer->count && layer->count < layer->squares &&
-           sli_says_walkable(layer->name);
-}
-
-/// The number of the only layer that says where one walks; that of no layer else.
-static size_t find_walkable(const sli_tiled_reader *reader) {
-    size_t found = reader->seen.count, count = 0;
-    for (size_t i = 0; i < reader->seen.count; i++) {
-        if (!says_walkable(&reader->seen.items[i])) continue;
-        found = i;
-        count++;
-    }
-    return count == 1 ? found : reader->seen.count;
-}
-
-sl_status sli_tiled_guess(sli_tiled_reader *reader, const uint32_t *gids, size_t columns,
-                          size_t rows) {
-    const look at = {gids, columns, rows};
-    const sli_tiled_seen *layer = &reader->seen.items[reader->guess_layer];
-    const size_t count = columns * rows, edge = 2 * (columns + rows);
-    const size_t empty = count - (size_t)layer->count, bare = on_edge(&at, 0);
-    size_t first;
-    const bool only = count_plain(reader, &first) == 1, floor = layer->kind == SLI_GAME_FLOOR;
-    // The most frequent tile of what is named for ground is no rock.
-    const bool ground = floor || layer->kind == SLI_GAME_GROUND;
-    size_t most, as_edge;
-    uint32_t gid = 0;
-    if (layer->squares != count) return SL_OK; // one chunk of several
-    SL_TRY(find_most(reader->context, gids, count, &gid, &most));
-    SL_TRY(count_as_edge(reader->context, &at, &as_edge));
-    const sli_tiled_stand stand = sli_tiled_where_objects_stand(reader, gids, columns, rows);
-    if (only_floor(reader)) {
-        reader->guess_why = "where the floor has no tile is a wall";
-    } else if (says_walkable(layer)) {
-        reader->guess_why = "one does not walk where it has no tile";
-    } else if (is_inside(reader) && !(gid && ground) && 2 * most >= count &&
-               2 * on_edge(&at, gid) >= edge) {
-        reader->guessed = gid;
-        reader->guess_why = gid ? "the most frequent tile of a dungeon, which is on its edge too"
-                                : "the empty squares of a dungeon";
-    } else if (only && !floor && 5 * empty >= count && 20 * bare <= edge) {
-        reader->guessed_all = true;
-        reader->guess_why = "its tiles lie all around its edge";
-    } else if (only && !floor && 5 * empty >= 2 * count &&
-               2 * tiles_of_row(&at, rows - 1) >= columns && 4 * tiles_of_row(&at, 0) <= columns) {
-        reader->guessed_all = true;
-        reader->guess_why = "its tiles lie below and not above, as in a platformer";
-    } else if (reader->guess_layer == find_ground(reader) && 5 * empty >= 2 * count &&
-               5 * tiles_of_row(&at, rows - 1) >= 2 * columns &&
-               4 * tiles_of_row(&at, 0) <= columns) {
-        reader->guessed_all = true;
-        reader->guess_why = "it is named for ground, with air above it";
-    } else if (only && !ground && gid && !empty && 2 * most >= count && !on_edge(&at, gid) &&
-               20 * as_edge >= 19 * (count - most)) {
-        reader->guessed_all = true;
-        reader->guessed = gid;
-        reader->guess_why = "the most frequent tile does not come to its edge";
-    } else if (only && !floor && stand == SLI_TILED_STAND_ON_EMPTY && 10 * layer->count >= count) {
-        reader->guessed_all = true;
-        reader->guess_why = "all objects stand where it has no tiles";
-    } else if (only && stand == SLI_TILED_STAND_ON_TILES && 10 * empty >= count) {
-        reader->guess_why = "all objects stand on its tiles";
-    }
-    return SL_OK;
-}
-
-static sl_status guess(sli_tiled_reader *reader) {
-    reader->by = SLI_TILED_BY_GUESS;
-    const size_t ground = find_ground(reader), walkable = find_walkable(reader);
-    if (walkable < reader->seen.count) {
-        reader->guess_layer = walkable;
-        return sli_tiled_read_again(reader);
-    }
-    if (count_plain(reader, &reader->guess_layer) > 1 && ground < reader->seen.count &&
-        !is_inside(reader))
-        reader->guess_layer = ground;
-    return sli_tiled_read_again(reader);
-}
 
 sl_status sli_tiled_check_guess(const sli_tiled_reader *reader) {
     for (size_t i = 0; reader->by > SLI_TILED_BY_BESIDE && i < reader->things.items.count; i++) {
@@ -266,8 +47,7 @@ sl_status sli_tiled_check_rules(const sli_tiled_reader *reader) {
     if (!input || !output || reader->options->layers) return SL_OK;
     return sli_json_fail(reader->map,
                          "its layers input_... and output_... are rules by which Tiled "
-                         "draws other maps: read a map that they have drawn; --layers "
-                         "NAME takes a layer of this one as solid");
+                         "draws other maps: read a map that they have drawn");
 }
 
 // --- the order of the readings
@@ -311,9 +91,25 @@ static bool takes_all(sli_tiled_reader *reader) {
     return true;
 }
 
+/// Where a tileset cannot be read, names of layers may tell, or the look of one.
+static sl_status find_without_set(sli_tiled_reader *reader) {
+    const size_t unknown = reader->unknown_tiles, lost = reader->lost_tiles;
+    reader->best = find_best(reader);
+    if (!sli_tiled_taken(reader) && reader->best) {
+        reader->by = SLI_TILED_BY_NAME;
+        SL_TRY(sli_tiled_read_again(reader));
+    } else if (!sli_tiled_taken(reader)) {
+        SL_TRY(sli_tiled_begin_guess(reader));
+    }
+    reader->unknown_tiles = unknown;
+    reader->lost_tiles = lost;
+    return reader->by && (sli_tiled_taken(reader) || reader->guess_why) ? SL_OK
+                                                                        : fail_missing(reader);
+}
+
 sl_status sli_tiled_find_meaning(sli_tiled_reader *reader) {
     if (reader->void_is_solid) return SL_OK;
-    if (reader->unknown_tiles) return fail_missing(reader);
+    if (reader->unknown_tiles) return find_without_set(reader);
     if (sli_tiled_taken(reader)) return SL_OK;
     if (reader->beside_tiles) {
         reader->by = SLI_TILED_BY_BESIDE;
@@ -328,11 +124,11 @@ sl_status sli_tiled_find_meaning(sli_tiled_reader *reader) {
         if (sli_tiled_taken(reader) && !takes_all(reader)) return SL_OK;
     }
     // A layer for walls that has none: all is open but what is beyond the map, or the floor.
-    if (reader->empty_layers && !only_floor(reader)) {
+    if (reader->empty_layers && !sli_tiled_only_floor(reader)) {
         reader->by = SLI_TILED_BY_WORD;
         return SL_OK;
     }
-    SL_TRY(guess(reader));
+    SL_TRY(sli_tiled_begin_guess(reader));
     if (reader->guess_why) return SL_OK;
     return sli_tiled_fail_unsaid(reader, reader->believed_not
                                              ? "nearly all of its tiles say that they are solid"

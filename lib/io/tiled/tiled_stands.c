@@ -1,6 +1,6 @@
 /// What the objects of a map tell of its only layer of tiles, where nothing says what is solid:
 /// they stand where one can stand. On squares without tiles, and the tiles are walls; on tiles, and
-/// the tiles are floor.
+/// the tiles are floor. One of five may stand otherwise, such as a chest in a wall.
 #include "io/tiled/tiled.h"
 
 #include <math.h>
@@ -9,7 +9,8 @@ typedef struct stands {
     const uint32_t *gids;
     size_t columns, rows;
     sl_point tile;
-    size_t on_tiles, on_empty;
+    uint32_t most;
+    size_t on_tiles, on_empty, on_most;
 } stands;
 
 static double number_of(const sli_json *object, const char *key) {
@@ -28,6 +29,7 @@ static void look_at_object(stands *s, const sli_json *object) {
     if (!(column >= 0 && row >= 0 && column < (double)s->columns && row < (double)s->rows)) return;
     const uint32_t gid = s->gids[(size_t)row * s->columns + (size_t)column] & SLI_TILED_TILE;
     ++*(gid ? &s->on_tiles : &s->on_empty);
+    s->on_most += gid == s->most;
 }
 
 static void look_at_layers(stands *s, const sli_json *parent) {
@@ -44,16 +46,19 @@ static void look_at_layers(stands *s, const sli_json *parent) {
 }
 
 sli_tiled_stand sli_tiled_where_objects_stand(const sli_tiled_reader *reader, const uint32_t *gids,
-                                              size_t columns, size_t rows) {
-    enum { LEAST = 3 };
+                                              size_t columns, size_t rows, uint32_t most,
+                                              bool *on_most) {
+    enum { LEAST = 3, FEW = 4 };
     const sl_point tile = reader->lattice.tile;
-    stands s = {.gids = gids, .columns = columns, .rows = rows, .tile = tile};
+    stands s = {.gids = gids, .columns = columns, .rows = rows, .tile = tile, .most = most};
+    *on_most = false;
     if (reader->lattice.orientation != SLI_TILED_ORTHOGONAL) return SLI_TILED_STAND_UNKNOWN;
     look_at_layers(&s, reader->map);
     if (s.on_tiles + s.on_empty < LEAST) return SLI_TILED_STAND_UNKNOWN;
-    return !s.on_tiles   ? SLI_TILED_STAND_ON_EMPTY
-           : !s.on_empty ? SLI_TILED_STAND_ON_TILES
-                         : SLI_TILED_STAND_UNKNOWN;
+    *on_most = 2 * s.on_most > s.on_tiles + s.on_empty;
+    return s.on_empty >= FEW * s.on_tiles   ? SLI_TILED_STAND_ON_EMPTY
+           : s.on_tiles >= FEW * s.on_empty ? SLI_TILED_STAND_ON_TILES
+                                            : SLI_TILED_STAND_UNKNOWN;
 }
 
 bool sli_tiled_is_bare(const sli_json *object, const sli_tiled_shape *shape) {
@@ -77,13 +82,12 @@ static bool may_be_bodies(const char *name) {
     return sli_game_kind_of(name) == SLI_GAME_UNSAID;
 }
 
-bool sli_tiled_has_bare(const sli_json *layer) {
+/// Whether objects of which nothing is said are at least four in a layer, and half of its objects.
+static bool are_bare(const sli_json *layer) {
     enum { LEAST = 4 };
     const sli_json objects = sli_json_member(layer, "objects");
-    const char *name = sli_json_text_of(layer, "name");
     const size_t all = json_array_size(objects.value);
     size_t count = 0;
-    if (!may_be_bodies(name)) return false;
     for (size_t i = 0; i < all; i++) {
         const sli_json object = sli_json_item(&objects, i);
         sli_tiled_shape shape;
@@ -91,4 +95,18 @@ bool sli_tiled_has_bare(const sli_json *layer) {
         count += sli_tiled_is_bare(&object, &shape);
     }
     return count >= LEAST && 2 * count >= all;
+}
+
+bool sli_tiled_has_bare(const sli_json *layer) {
+    return may_be_bodies(sli_json_text_of(layer, "name")) && are_bare(layer);
+}
+
+bool sli_tiled_is_border(const sli_json *layer) {
+    static const char *const words[] = {"border", "hitbox", "physics"};
+    const char *name = sli_json_text_of(layer, "name"), *at = name;
+    bool said = false;
+    for (sli_name_word word; sli_word_next(&at, &word);)
+        said |= sli_word_in(&word, words, sizeof words / sizeof *words);
+    return said && sli_game_kind_of(name) == SLI_GAME_LIKELY && !sli_game_says_other(name) &&
+           are_bare(layer);
 }

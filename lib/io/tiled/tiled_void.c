@@ -319,11 +319,24 @@ static sl_status fill(field *f, const char *marks) {
     return SL_OK;
 }
 
+enum { OPEN_TEXT = 800 };
+
+/// A command that keeps squares without a tile open: with the layers that are solid.
+static const char *write_open(const field *f, char text[OPEN_TEXT]) {
+    char names[400];
+    sli_tiled_list_taken(f->reader, names, sizeof names);
+    snprintf(text, OPEN_TEXT,
+             *names ? "sightline check '%.300s' --layers '%s' -o map.png"
+                    : "draw a tile of floor there",
+             f->reader->map->file->name, names);
+    return text;
+}
+
 /// What walls part from floor, but for a place or two, and lies at the edge is no room: who draws
 /// them means that one does not get there.
 static sl_status fill_edge(field *f, bool *filled) {
     size_t marked;
-    char open[64] = "";
+    char open[64] = "", keep[OPEN_TEXT];
     SL_TRY(mark_edge(f, &marked));
     const border found = find_border(f, ".+", "vw");
     *filled = marked && 10 * found.open <= found.all && found.all < PAIRS;
@@ -332,12 +345,10 @@ static sl_status fill_edge(field *f, bool *filled) {
     if (!*filled) return SL_OK;
     if (found.open)
         snprintf(open, sizeof open, " at all but %zu of %zu places", found.open, found.all);
-    sl_note(
-        f->reader->context,
-        "%s: %zu squares at its edge have no tile, or nothing but water, and walls part them "
-        "from floor%s: they are taken as solid; if one walks there, --layers NAME,NAME with the "
-        "layers that are solid keeps them open",
-        f->reader->map->file->name, marked, open);
+    sl_note(f->reader->context,
+            "%s: %zu squares at its edge have no tile, or nothing but water, and walls part them "
+            "from floor%s: they are taken as solid; if one walks there: %s",
+            f->reader->map->file->name, marked, open, write_open(f, keep));
     return fill(f, "vw");
 }
 
@@ -370,6 +381,7 @@ static bool is_side_view(const field *f, size_t empty, size_t floor) {
 static sl_status settle(field *f, const char *layers) {
     size_t empty = 0, floor = 0, water = 0, solid = 0;
     bool filled = false;
+    char keep[OPEN_TEXT];
     take_pictures(f);
     take_solid(f);
     SL_TRY(take_closed(f));
@@ -393,10 +405,9 @@ static sl_status settle(field *f, const char *layers) {
         FLOOR_PER_END * ends.open <= floor) {
         sl_note(f->reader->context,
                 "%s: %zu square%s no tile, and %s taken as solid, as floor is drawn elsewhere; "
-                "if one walks there, --layers NAME,NAME with the layers that are solid keeps %s "
-                "open",
+                "if one walks there: %s",
                 f->reader->map->file->name, empty, one ? " has" : "s have", one ? "is" : "are",
-                one ? "it" : "them");
+                write_open(f, keep));
         return fill(f, " ");
     }
     if (is_side_view(f, empty, floor)) return SL_OK;
