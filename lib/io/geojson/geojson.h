@@ -75,6 +75,8 @@ sl_status sli_geo_refuse_points(const sli_geo *geo);
 /// SL_BAD_INPUT where open lines that nothing names reach too far for walls. Notes sites that lie
 /// far apart, with the --crop of each. For maps on the earth, once it is known what is taken.
 sl_status sli_geo_doubt(const sli_geo *geo);
+/// Whether what is taken is a plan of rooms, and no town: buildings, or more than a house is long.
+bool sli_geo_is_plan(const sli_geo *geo);
 /// Footprints of buildings in a map projection whose unit nothing says: what they enclose is
 /// inside, not the streets among them. Sets the width of the map's entrances, and says so.
 sl_status sli_geo_look_for_footprints(const sli_geo *geo);
@@ -87,6 +89,9 @@ sl_status sli_geo_add_names(sli_geo *geo);
 
 /// Adds the doors that are taken: they are cut out of the map's walls, or stand between them.
 sl_status sli_geo_add_doors(sli_geo *geo);
+
+/// Whether a word says that a feature is a building.
+bool sli_geo_says_building(const char *word);
 
 /// A property of a feature, also one among the "tags" of OpenStreetMap; NULL for none.
 json_t *sli_geo_property(const sli_geo_feature *feature, const char *key);

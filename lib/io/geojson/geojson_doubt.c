@@ -158,12 +158,26 @@ sl_status sli_geo_doubt(const sli_geo *geo) {
     return SL_OK;
 }
 
-// --- footprints
+// --- towns
 
 /// Map projections count metres or feet from far away. Towns have many outlines, are larger than a
 /// house in either unit, and their buildings leave ground between them.
 enum { FOOTPRINTS = 8 };
 static const double PROJECTED = 100000, TOWN = 1000, BUILT = 0.5, ENTRANCE = 1.2;
+
+bool sli_geo_is_plan(const sli_geo *geo) {
+    sl_box all = nothing;
+    size_t count = 0, buildings = 0;
+    for (size_t i = 0; i < geo->features.count; i++) {
+        const sli_geo_feature *f = &geo->features.items[i];
+        if (!f->taken || f->means != SLI_GEO_WALL || !f->count) continue;
+        join(&all, box_of(geo, f));
+        count++;
+        buildings += sli_geo_says_building(f->layer);
+    }
+    return count && 2 * buildings < count &&
+           fmax(all.max.x - all.min.x, all.max.y - all.min.y) < TOWN;
+}
 
 static double area_of(const sli_geo *geo, const sli_geo_line *line) {
     const sl_point *p = geo->points.items + line->first;

@@ -37,6 +37,10 @@ static sli_geo_meaning by_words(const char *name) {
     return means;
 }
 
+bool sli_geo_says_building(const char *word) {
+    return by_words(word) == SLI_GEO_WALL;
+}
+
 static sli_geo_meaning meaning_of(const char *word) {
     static const struct {
         const char *word;
