@@ -218,6 +218,7 @@ static const double PROJECTED = 100000, TOWN = 1000, BUILT = 0.5, ENTRANCE = 1.2
 bool sli_geo_is_plan(const sli_geo *geo) {
     sl_box all = nothing;
     size_t count = 0, buildings = 0;
+    if (geo->guessed && sli_geo_says_building(sl_path_name(geo->name))) return false;
     for (size_t i = 0; i < geo->features.count; i++) {
         const sli_geo_feature *f = &geo->features.items[i];
         if (!f->taken || f->means != SLI_GEO_WALL || !f->count) continue;
