@@ -25,7 +25,7 @@
 /// A pocket with a somewhat wider opening may be a hall whose rooms are inside. So may what all
 /// openings of a part lead to, as a corridor with an open end. This is a doubt: then such rooms do
 /// not count, unless the map says W. In plans that are drawn (sl_map.entrance_may_be_wide), such an
-/// opening is tried as W first, and counts if it leaves no doubt.
+/// opening is tried as W first (wide_entrances.c).
 ///
 /// Where a part that is inside ends at a channel, the map gets a seam. So no cell lies on both
 /// sides. Time O(n log n), and what channels take.
@@ -52,8 +52,6 @@
 #define DOORS    0.7
 /// Slits are narrower than this share of the map, and no entrances.
 #define SLIT 1000
-/// Doors of a plan are usually wider than this share of it.
-#define DOORS_IN_PLAN 100
 /// How much less roomy than other places cores of walls are.
 #define CORE 16
 /// How much less roomy than niches outdoors rooms are.
@@ -298,7 +296,8 @@ static sl_status find_by(sli_entrances *f, sl_entrance by, double width, double 
     const bool any = f->found.width > 0;
     if (status == SL_OK && any) status = find_parts(f, f->found.width + f->weld);
     *found = false;
-    const bool guess = by == SL_ENTRANCE_FOUND || by == SL_ENTRANCE_WIDE;
+    // A wide opening that leaves no doubt about wider ones is steady.
+    const bool guess = by == SL_ENTRANCE_FOUND || (by == SL_ENTRANCE_WIDE && most > width);
     // Rooms behind doors that are shut are as closed as the core of a wall.
     const bool opened = by != SL_ENTRANCE_WIDE || !f->map->door_count;
     if (status == SL_OK && any && (!guess || is_building(f, opened)))
@@ -409,10 +408,8 @@ static sl_status find_roomiest(sli_entrances *f, double most) {
     return take_roomier(f, INFINITY, CORE, &clearance);
 }
 
-/// Tries one way to know the width, up to `most` (what is doubtful, by SL_ENTRANCE_WIDE). *found:
-/// there is an answer, and the map has it.
-static sl_status try_by(sl_context *context, sl_map *map, sl_entrance by, double width, double most,
-                        bool *found) {
+sl_status sli_entrances_try(sl_context *context, sl_map *map, sl_entrance by, double width,
+                            double most, bool *found) {
     sli_entrances f;
     SL_TRY(begin_search_of_entrances(&f, context, map));
     f.doubt = most;
@@ -435,8 +432,7 @@ static sl_status try_by(sl_context *context, sl_map *map, sl_entrance by, double
     return status;
 }
 
-/// Forgets what was found before.
-static void forget(sl_context *context, sl_map *map) {
+void sli_entrances_forget(sl_context *context, sl_map *map) {
     size_t kept = 0;
     sl_free(context, map->interior.places);
     map->interior = (sl_interior){.roomiest = NOWHERE};
@@ -450,75 +446,11 @@ static void forget(sl_context *context, sl_map *map) {
 
 /// By doors that are drawn open: the width that is found counts if these can be entrances then.
 static sl_status find_by_doors(sl_context *context, sl_map *map, double most, bool *found) {
-    SL_TRY(try_by(context, map, SL_ENTRANCE_FOUND, 0, most, found));
+    SL_TRY(sli_entrances_try(context, map, SL_ENTRANCE_FOUND, 0, most, found));
     if (*found && map->interior.width >= DOORS * map->entrance) return SL_OK;
-    forget(context, map);
-    return try_by(context, map, SL_ENTRANCE_DOORS, map->entrance, 0, found);
+    sli_entrances_forget(context, map);
+    return sli_entrances_try(context, map, SL_ENTRANCE_DOORS, map->entrance, 0, found);
 }
-
-#ifndef SLI_WITHOUT_DRAWINGS
-/// What a search found, kept while others are tried.
-typedef struct answer {
-    sl_interior interior; ///< with places of its own
-    sl_glass *seams;
-    size_t seam_count;
-} answer;
-
-static sl_status keep_answer(sl_context *context, const sl_map *map, answer *out) {
-    const size_t places = map->interior.place_count;
-    *out = (answer){.interior = map->interior, .seam_count = map->seam_count};
-    out->interior.places = sl_alloc_array(context, places, sizeof *out->interior.places);
-    out->seams = sl_alloc_array(context, map->seam_count, sizeof *out->seams);
-    if (!out->interior.places || !out->seams) return SL_NO_MEMORY;
-    for (size_t i = 0; i < places; i++) out->interior.places[i] = map->interior.places[i];
-    for (size_t i = 0; i < map->seam_count; i++) out->seams[i] = map->seams[i];
-    return SL_OK;
-}
-
-/// Gives the map an answer that it had before: it has room for the seams.
-static void take_answer(sl_context *context, sl_map *map, answer *kept) {
-    sl_free(context, map->interior.places);
-    map->interior = kept->interior;
-    kept->interior.places = NULL;
-    for (size_t i = 0; i < kept->seam_count; i++) map->seams[i] = kept->seams[i];
-    map->seam_count = kept->seam_count;
-}
-
-/// So many openings are tried, each wider than the one before: each takes a search of its own.
-enum { MOST_WIDE = 8 };
-
-/// Tries the doubtful opening as an entrance: a pair of doors, a garage, a hall. It counts if
-/// nothing else is doubtful then, and a building is inside. Else the narrow answer stays. In plans
-/// that are drawn alone.
-///
-/// A width that is found among openings that are small against the plan is not that of doors, but
-/// of walls that nearly meet. Then none but such an opening is tried, and all that are wider are
-/// doubtful.
-static sl_status widen(sl_context *context, sl_map *map, const sl_box *b) {
-    const double across = b->max.x - b->min.x, up = b->max.y - b->min.y;
-    const sl_interior before = map->interior;
-    const double widest = fmin(across, up) / 3, least = fmax(across, up) / DOORS_IN_PLAN;
-    const bool small = before.by == SL_ENTRANCE_FOUND && before.doubtful_width <= least;
-    const double most = small ? widest : SLI_DOUBT_FOUND * before.width;
-    if (!map->entrance_may_be_wide || !(before.doubtful_width > 0)) return SL_OK;
-    answer kept;
-    sl_status status = keep_answer(context, map, &kept);
-    bool found = true;
-    double width = 0;
-    for (int i = 0; i < MOST_WIDE && status == SL_OK && found; i++) {
-        const double next = map->interior.doubtful_width;
-        if (!(next > width) || (small && next > least)) break;
-        width = next;
-        forget(context, map);
-        status = try_by(context, map, SL_ENTRANCE_WIDE, width, most, &found);
-    }
-    if (status == SL_OK && (!found || map->interior.doubtful_width > 0))
-        take_answer(context, map, &kept);
-    sl_free(context, kept.interior.places);
-    sl_free(context, kept.seams);
-    return status;
-}
-#endif
 
 #ifndef SLI_WITHOUT_DRAWINGS
 /// With more walls the search for a likely start takes seconds, and lettering is among them.
@@ -548,6 +480,32 @@ sl_status sl_map_find_roomiest(sl_context *context, const sl_map *map, sl_point 
 }
 #endif
 
+/// The share of the map's box that is inside by the parts of a width; 0 where that is no building.
+static double share_of_building(const sli_entrances *f) {
+    double area = 0;
+    for (size_t i = 0; i < f->groups.count; i++)
+        if (f->groups.items[i].inside) area += f->groups.items[i].area;
+    const double share =
+        area / ((f->bounds.max.x - f->bounds.min.x) * (f->bounds.max.y - f->bounds.min.y));
+    return share >= 0.5 || is_building(f, false) ? share : 0;
+}
+
+sl_status sli_entrances_shares(sl_context *context, sl_map *map, const double *widths, size_t count,
+                               double *shares) {
+    sli_entrances f;
+    SL_TRY(begin_search_of_entrances(&f, context, map));
+    sl_status status = make_channels(&f, widths[count - 1]);
+    for (size_t i = 0; i < count && status == SL_OK; i++) {
+        const double width = widths[i] + f.weld;
+        settle_widths(&f, width);
+        status = sli_access_find(&f);
+        if (status == SL_OK) status = sli_parts_choose(&f, width);
+        if (status == SL_OK) shares[i] = share_of_building(&f);
+    }
+    destroy(&f);
+    return status;
+}
+
 static sl_status find(sl_context *context, sl_map *map) {
     const sl_box b = sl_map_bounds(map);
     const double shorter = fmin(b.max.x - b.min.x, b.max.y - b.min.y);
@@ -557,14 +515,14 @@ static sl_status find(sl_context *context, sl_map *map) {
     bool found = false;
     if (!(shorter > 0)) return SL_OK;
     if (map->entrance > 0 && !doors)
-        return try_by(context, map, SL_ENTRANCE_GIVEN, map->entrance, 0, &found);
+        return sli_entrances_try(context, map, SL_ENTRANCE_GIVEN, map->entrance, 0, &found);
     if (usual < 0.6 * shorter && !knows_ground(map))
         SL_TRY(doors ? find_by_doors(context, map, shorter / 3, &found)
-                     : try_by(context, map, SL_ENTRANCE_UNIT, usual, 0, &found));
+                     : sli_entrances_try(context, map, SL_ENTRANCE_UNIT, usual, 0, &found));
     if (!found && !sli_entrances_say_ground(map))
-        SL_TRY(try_by(context, map, SL_ENTRANCE_FOUND, 0, shorter / 3, &found));
+        SL_TRY(sli_entrances_try(context, map, SL_ENTRANCE_FOUND, 0, shorter / 3, &found));
 #ifndef SLI_WITHOUT_DRAWINGS
-    if (found) SL_TRY(widen(context, map, &b));
+    if (found) SL_TRY(sli_entrances_widen(context, map));
 #endif
     return SL_OK;
 }
@@ -572,12 +530,12 @@ static sl_status find(sl_context *context, sl_map *map) {
 sl_status sl_map_find_inside(sl_context *context, sl_map *map, const sl_clean_options *clean,
                              sl_clean_account *account) {
     sl_clean_account again = {0};
-    forget(context, map);
+    sli_entrances_forget(context, map);
     if (map->start_count || !map->wall_count) return SL_OK;
     const size_t seams = map->seam_count;
     const sl_status status = find(context, map);
     if (status == SL_UNSUPPORTED) {
-        forget(context, map);
+        sli_entrances_forget(context, map);
         sl_note(context,
                 "%s: its walls are too dense to look for rooms among them; name a place in a room "
                 "by --start X,Y",

@@ -117,4 +117,20 @@ sl_status sli_parts_find_doubts(sli_entrances *f, double width, const uint8_t *h
 /// to, or that belong to a building with a doubtful opening or with such a part.
 sl_status sli_parts_drop_doubtful(sli_entrances *f, const uint8_t *marks);
 
+// --- the width
+
+/// Tries one way to know the width, up to `most` (what is doubtful, by SL_ENTRANCE_WIDE). *found:
+/// there is an answer, and the map has it.
+sl_status sli_entrances_try(sl_context *context, sl_map *map, sl_entrance by, double width,
+                            double most, bool *found);
+/// Forgets what was found before.
+void sli_entrances_forget(sl_context *context, sl_map *map);
+/// The share of the map's box that is inside with each of some widths, in ascending order, if
+/// nothing is doubtful; 0 where that is no building.
+sl_status sli_entrances_shares(sl_context *context, sl_map *map, const double *widths, size_t count,
+                               double *shares);
+/// Where an opening is in doubt in a plan that is drawn: takes a wider one as an entrance, if that
+/// leaves no doubt.
+sl_status sli_entrances_widen(sl_context *context, sl_map *map);
+
 #endif

@@ -649,6 +649,36 @@ static void test_small_of_drawing(void **state) {
     close_plan(&p);
 }
 
+/// A drawing of rooms that are closed but for one with a wide opening: that is an entrance, as
+/// wider ones would change nothing. Where what is inside hangs on the width, the narrow answer
+/// stays.
+static void test_steady_of_drawing(void **state) {
+    (void)state;
+    static const char rooms_of[] = "unit m\nwalls 1.8 0 30 0 30 20 0 20 0 0\n"
+                                   "wall 10 0 10 20\nwall 20 0 20 20\nwall 0 10 30 10\n";
+    static const char yard[] = "walls 43 0 60 0 60 20 40 20 40 0\n"
+                               "wall 0 40 100 40\nwall 0 50 100 50\nwall 0 60 100 60\n";
+    for (int i = 0; i < 2; i++) {
+        char text[600];
+        plan of_text, of_drawing;
+        snprintf(text, sizeof text, "%s%s", rooms_of, i ? yard : "");
+        read_as(TEXT, text, &of_text);
+        read_as(DRAWING, text, &of_drawing);
+        assert_true(of_text.map.interior.doubtful_width > 0);
+        if (i) {
+            assert_same_inside(&of_text, &of_drawing);
+        } else {
+            assert_int_equal(of_drawing.map.interior.by, SL_ENTRANCE_WIDE);
+            assert_float_equal(of_drawing.map.interior.width, 1.8, 1e-9);
+            assert_int_equal(doubt_of(&of_drawing), SL_INSIDE_SURE);
+            assert_true(is_inside(&of_drawing, (sl_point){5, 5}));
+            assert_true(is_inside(&of_drawing, (sl_point){25, 15}));
+        }
+        close_plan(&of_text);
+        close_plan(&of_drawing);
+    }
+}
+
 /// A drawing with a pair of doors as its entrance, and doors to its rooms that are drawn: whether
 /// these are kept as doors or are gaps, the same is inside.
 static void test_doors_of_drawing(void **state) {
@@ -842,6 +872,7 @@ int main(void) {
         cmocka_unit_test(test_wide_of_drawing),
         cmocka_unit_test(test_narrow_of_drawing),
         cmocka_unit_test(test_small_of_drawing),
+        cmocka_unit_test(test_steady_of_drawing),
         cmocka_unit_test(test_doors_of_drawing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -115,24 +115,6 @@ static sl_status suggest_gap(sl_context *context, const check_plan *plan, const 
     return status == SL_NO_MEMORY || status == SL_CANCELLED ? status : SL_OK;
 }
 
-/// The share of the area that is inside with a width of entrances; 0 where no part is inside by it.
-static sl_status try_entrance(sl_context *context, const check_plan *plan, const sl_map *map,
-                              double width, double *inside) {
-    sl_baked baked = {0};
-    char text[SL_NUMBER_TEXT];
-    snprintf(text, sizeof text, "%.4g", width); // as it is printed
-    sl_status status = sl_map_copy(context, map, &baked.map);
-    baked.map.entrance = strtod(text, NULL);
-    baked.map.entrance_by_doors = false;
-    if (status == SL_OK) status = pipeline_clean(context, &plan->pipeline, &baked.map, NULL);
-    if (status == SL_OK)
-        status = pipeline_subdivide(context, &plan->pipeline, &baked.map, &baked.space);
-    const bool any = status == SL_OK && baked.map.interior.place_count;
-    *inside = any ? sl_space_ground(&baked.space).inside : 0;
-    sl_baked_destroy(context, &baked);
-    return status;
-}
-
 /// What to type where an opening is in doubt, and how much is inside then.
 static sl_status decide_opening(sl_context *context, const check_plan *plan, const checked *c,
                                 faults_report *report) {
@@ -140,7 +122,8 @@ static sl_status decide_opening(sl_context *context, const check_plan *plan, con
     SL_TRY(pipeline_decide_opening(context, &plan->pipeline, &c->baked.map, &c->baked.space,
                                    &report->opening));
     if (report->opening.start) return SL_OK;
-    return try_entrance(context, plan, &c->map, report->opening.entrance, &report->inside);
+    return pipeline_share_by_entrance(context, &plan->pipeline, &c->baked.map, &c->baked.space,
+                                      report->opening.entrance, &report->inside);
 }
 
 /// Reads the map; of a baked file, the map that it was made from.

@@ -300,15 +300,24 @@ static bool is_game(const sl_context *context, const map_pipeline *pipeline, con
     return input_is_game(context, pipeline->path) && map->source.transform.y_down;
 }
 
-/// Whether a building is inside with a width of entrances.
+/// What is inside with a width of entrances: whether a building is, and with `share` which share of
+/// the area; 0 where no part is inside by it.
 static sl_status try_entrance(sl_context *context, const map_pipeline *pipeline,
-                              const sl_map *whole, double width, bool *building) {
+                              const sl_map *whole, double width, bool *building, double *share) {
     sl_map map = {0};
+    sl_space space = {0};
+    char text[SL_NUMBER_TEXT];
+    snprintf(text, sizeof text, "%.4g", width); // as it is printed
     sl_status status = sl_map_copy(context, whole, &map);
-    map.entrance = width;
+    map.entrance = strtod(text, NULL);
     map.entrance_by_doors = false;
     if (status == SL_OK) status = sl_map_find_inside(context, &map, &pipeline->input.clean, NULL);
-    *building = map.interior.place_count && map.interior.building;
+    const bool any = status == SL_OK && map.interior.place_count;
+    *building = any && map.interior.building;
+    if (share) *share = 0;
+    if (share && any) status = pipeline_subdivide(context, pipeline, &map, &space);
+    if (share && any && status == SL_OK) *share = sl_space_ground(&space).inside;
+    sl_space_destroy(context, &space);
     sl_map_destroy(context, &map);
     return status;
 }
@@ -320,12 +329,18 @@ sl_status pipeline_decide_opening(sl_context *context, const map_pipeline *pipel
     bool building = is_game(context, pipeline, map);
     *out = (doubtful_opening){.start = building, .wide = true, .entrance = widths[0]};
     for (int i = 0; i < 2 && !building; i++) {
-        char text[SL_NUMBER_TEXT];
-        snprintf(text, sizeof text, "%.4g", widths[i]); // as it is printed
-        SL_TRY(try_entrance(context, pipeline, &whole, strtod(text, NULL), &building));
+        SL_TRY(try_entrance(context, pipeline, &whole, widths[i], &building, NULL));
         if (building) *out = (doubtful_opening){.wide = i == 0, .entrance = widths[i]};
     }
     return SL_OK;
+}
+
+sl_status pipeline_share_by_entrance(sl_context *context, const map_pipeline *pipeline,
+                                     const sl_map *map, const sl_space *space, double width,
+                                     double *share) {
+    const sl_map whole = with_walls(map, space);
+    bool building;
+    return try_entrance(context, pipeline, &whole, width, &building, share);
 }
 
 /// Refuses a map with an opening in doubt. A start behind it would lead out of a house, and a start

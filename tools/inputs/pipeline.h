@@ -84,6 +84,11 @@ typedef struct doubtful_opening {
 sl_status pipeline_decide_opening(sl_context *context, const map_pipeline *pipeline,
                                   const sl_map *map, const sl_space *space, doubtful_opening *out);
 
+/// The share of the area that is inside with a width of entrances; 0 where no part is inside by it.
+sl_status pipeline_share_by_entrance(sl_context *context, const map_pipeline *pipeline,
+                                     const sl_map *map, const sl_space *space, double width,
+                                     double *share);
+
 /// Refuses a map where no start says what is inside, and an opening is in doubt or walls enclose
 /// next to nothing: most of a grid may be missing. `or_else`: what else than a start helps; "" for
 /// nothing. Else as pipeline_note_inside().

@@ -395,22 +395,30 @@ static bool needs_start(const checked *found) {
     return !found->faults.has_starts && found->inside != SL_INSIDE_NONE && !has_entrances(found);
 }
 
-/// Whether a start is the next step. In a drawing whose rooms have no openings, one would lead to a
-/// part of them alone, and all of them are inside without it.
+/// What a start as the next step would do.
+typedef struct start_advice {
+    bool helps;
+    uint32_t apart; ///< rooms that no opening joins, so that it would lead to a part of them alone;
+                    ///< 0 for no such doubt
+} start_advice;
+
+/// In a drawing whose rooms have no openings, all of them are inside without a start.
 static sl_status find_start_helps(sl_context *context, const faults_report *report,
-                                  const checked *found, bool *helps) {
+                                  const checked *found, start_advice *out) {
     sl_sealed rooms;
-    *helps = needs_start(found);
-    if (!*helps || found->inside != SL_INSIDE_SURE || !input_is_drawing(context, report->input))
+    *out = (start_advice){.helps = needs_start(found)};
+    if (!out->helps || found->inside != SL_INSIDE_SURE || !input_is_drawing(context, report->input))
         return SL_OK;
     SL_TRY(sl_find_sealed(context, &found->baked.map, &found->baked.space, &rooms));
-    if (rooms.share <= MOST_SEALED) return SL_OK;
-    *helps = false;
-    printf(
-        "  a start would reach a part of the %u rooms, as no opening joins them: the next command "
-        "has none\n",
-        (unsigned)rooms.rooms);
+    if (rooms.share > MOST_SEALED) *out = (start_advice){.apart = rooms.rooms};
     return SL_OK;
+}
+
+static void print_apart(const start_advice *advice) {
+    if (advice->apart)
+        printf("  a start would reach a part of the %u rooms, as no opening joins them: the next "
+               "command has none\n",
+               (unsigned)advice->apart);
 }
 
 /// Whether inside hangs on an opening that is too wide for snapping.
@@ -422,13 +430,15 @@ static bool needs_entrance(const faults_report *report, const checked *found) {
 static sl_status print_next_of_mended(sl_context *context, const faults_report *report) {
     const uint32_t *counts = report->left->faults.counts;
     const bool left = counts[SL_FAULT_LEAK] || counts[SL_FAULT_GAP];
-    bool gap_given = false, start = false;
+    bool gap_given = false;
+    start_advice start = {0};
     if (needs_entrance(report, report->left) ||
         (!left && report->left->inside == SL_INSIDE_OPENING)) {
         return print_next_opening(context, report, NEXT_CHECK_MENDED, report->left);
     }
     if (!left) SL_TRY(find_start_helps(context, report, report->left, &start));
-    if (start) return print_next_start(context, report, NEXT_CHECK_MENDED, report->left);
+    print_apart(&start);
+    if (start.helps) return print_next_start(context, report, NEXT_CHECK_MENDED, report->left);
     for (size_t i = 0; i < report->given->count; i++)
         gap_given |= strcmp(report->given->items[i].name, "gap") == 0;
     print_command(report, left ? NEXT_CHECK_MENDED : NEXT_BAKE_MENDED, 0);
@@ -469,7 +479,7 @@ static sl_status print_next(sl_context *context, const faults_report *report) {
     const bool grave = faults->counts[SL_FAULT_LEAK] || faults->counts[SL_FAULT_GAP];
     const bool helps = report->helps > 0 && !is_as_door(report);
     const bool closes = helps || closable(faults, SL_FAULT_GAP) || closable(faults, SL_FAULT_LEAK);
-    bool start;
+    start_advice start;
     if (report->mended) {
         SL_TRY(print_next_of_mended(context, report));
     } else if (report->found->map.source.plans) {
@@ -483,7 +493,8 @@ static sl_status print_next(sl_context *context, const faults_report *report) {
         print_name(report, " --snap ", "-fixed.map");
     } else {
         SL_TRY(find_start_helps(context, report, report->found, &start));
-        if (start)
+        print_apart(&start);
+        if (start.helps)
             SL_TRY(print_next_start(context, report, NEXT_CHECK, report->found));
         else
             print_next_plain(report, grave);

@@ -159,7 +159,8 @@ typedef struct sl_space {
 /// opening, one that is 4/3 as wide as that. So cores of walls, niches and alleys are not. Where
 /// the map says what is solid, all open ground that walls enclose is inside. If an opening of up
 /// to 2.5 times the width leads to such a place, `doubtful_width` is that width. Rooms behind it
-/// are inside only if the map says the width.
+/// are inside only if the map says the width. In a plan that is drawn (sl_map.entrance_may_be_wide)
+/// they are also where that leaves no doubt, or where twice as wide openings change little.
 ///
 /// The map gets `interior`, and a seam (sl_glass.entrance) across each entrance, which cuts cells
 /// there. Where their ends are rounded, the map is cleaned again by `clean` (NULL: the default),

@@ -30,6 +30,7 @@ typedef struct sli_geo_feature {
     json_t *feature, *properties; ///< NULL for a geometry without a feature
     sli_geo_meaning means;
     const char *layer;   ///< the word that says what it is; "" for none
+    const char *by_file; ///< the word that its file's name says; "" for none
     size_t first, count; ///< of its lines
     bool taken;
 } sli_geo_feature;
@@ -43,6 +44,8 @@ typedef struct sli_geo {
     sl_map *map;
     sli_json_file files[SLI_GEO_FILES]; ///< the file itself, and those of a set beside it
     size_t file_count;
+    char beside[SLI_GEO_FILES][64]; ///< names of those, as long as messages may name them
+    const char *by_file;            ///< of the features that are being read
     SL_ARRAY(sli_geo_feature) features;
     SL_ARRAY(sli_geo_line) lines;
     SL_ARRAY(sl_point) points; ///< as in the file, then in the map
@@ -75,6 +78,10 @@ sl_status sli_geo_refuse_points(const sli_geo *geo);
 /// SL_BAD_INPUT where open lines that nothing names reach too far for walls. Notes sites that lie
 /// far apart, with the --crop of each. For maps on the earth, once it is known what is taken.
 sl_status sli_geo_doubt(const sli_geo *geo);
+/// Beside outlines of rooms, entrances may be areas as rooms are: these are no doors.
+sl_status sli_geo_find_halls(sli_geo *geo);
+/// Whether what is taken is a plan of rooms, and no town: buildings, or more than a house is long.
+bool sli_geo_is_plan(const sli_geo *geo);
 /// Footprints of buildings in a map projection whose unit nothing says: what they enclose is
 /// inside, not the streets among them. Sets the width of the map's entrances, and says so.
 sl_status sli_geo_look_for_footprints(const sli_geo *geo);
@@ -87,6 +94,9 @@ sl_status sli_geo_add_names(sli_geo *geo);
 
 /// Adds the doors that are taken: they are cut out of the map's walls, or stand between them.
 sl_status sli_geo_add_doors(sli_geo *geo);
+
+/// Whether a word says that a feature is a building.
+bool sli_geo_says_building(const char *word);
 
 /// A property of a feature, also one among the "tags" of OpenStreetMap; NULL for none.
 json_t *sli_geo_property(const sli_geo_feature *feature, const char *key);

@@ -25,8 +25,10 @@
 /// unit.
 typedef struct cut {
     size_t wall;
+    size_t number; ///< of those of its opening, by wall
     double s0, s1, t;
     sl_point p, q; ///< where s is s0 and s1
+    bool kept;
 } cut;
 
 typedef struct opening {
@@ -36,7 +38,8 @@ typedef struct opening {
     bool open;
     bool in_gap; ///< walls end a little within it
     uint32_t item;
-    SL_ARRAY(cut) cuts;
+    SL_ARRAY(cut) cuts;  ///< by wall
+    SL_ARRAY(cut) lines; ///< those that are kept, from side to side: one for each line of walls
 } opening;
 
 static bool same(sl_point a, sl_point b) {
@@ -93,67 +96,69 @@ static int compare_cuts(const void *left, const void *right) {
     return (a->s0 > b->s0) - (a->s0 < b->s0);
 }
 
-static int compare_walls(const void *left, const void *right) {
-    const cut *a = left, *b = right;
-    return (a->wall > b->wall) - (a->wall < b->wall);
-}
-
-static void sort(opening *o, int (*compare)(const void *, const void *)) {
-    if (o->cuts.count) qsort(o->cuts.items, o->cuts.count, sizeof *o->cuts.items, compare);
-}
-
 /// Whether two cuts lie in one line: as far apart sideways as 1/50 of the opening.
 static bool in_line(const opening *o, const cut *a, const cut *b) {
     return b->t - a->t <= o->length / 50;
 }
 
-/// Drops cuts that take less than a quarter of the opening out of the walls in one line. These only
+/// Keeps cuts that take a quarter of the opening or more out of the walls in one line. Others only
 /// end a little within it, where a door that is drawn as an area fills the gap between them.
-static void drop_short(opening *o) {
+static void keep_long(opening *o) {
     size_t kept = 0;
-    sort(o, compare_cuts);
-    for (size_t i = 0, end; i < o->cuts.count; i = end) {
-        const cut first = o->cuts.items[i];
+    for (size_t i = 0, end; i < o->lines.count; i = end) {
+        const cut first = o->lines.items[i];
         double length = 0;
-        for (end = i; end < o->cuts.count && in_line(o, &first, &o->cuts.items[end]); end++)
-            length += o->cuts.items[end].s1 - o->cuts.items[end].s0;
-        for (size_t k = i; k < end && length >= o->length / 4; k++)
-            o->cuts.items[kept++] = o->cuts.items[k];
+        for (end = i; end < o->lines.count && in_line(o, &first, &o->lines.items[end]); end++)
+            length += o->lines.items[end].s1 - o->lines.items[end].s0;
+        for (size_t k = i; k < end && length >= o->length / 4; k++) {
+            o->cuts.items[o->lines.items[k].number].kept = true;
+            o->lines.items[kept++] = o->lines.items[k];
+        }
     }
-    o->cuts.count = kept;
+    o->lines.count = kept;
 }
 
 /// Cuts that lie in one line become one.
-static void join_cuts(opening *o) {
+static void join_lines(opening *o) {
     size_t kept = 0;
-    sort(o, compare_cuts);
-    for (size_t i = 0; i < o->cuts.count; i++) {
-        const cut next = o->cuts.items[i];
-        cut *last = kept ? &o->cuts.items[kept - 1] : NULL;
+    for (size_t i = 0; i < o->lines.count; i++) {
+        const cut next = o->lines.items[i];
+        cut *last = kept ? &o->lines.items[kept - 1] : NULL;
         if (!last || !in_line(o, last, &next)) {
-            o->cuts.items[kept++] = next;
+            o->lines.items[kept++] = next;
             continue;
         }
         if (next.s0 < last->s0) last->s0 = next.s0, last->p = next.p;
         if (next.s1 > last->s1) last->s1 = next.s1, last->q = next.q;
     }
-    o->cuts.count = kept;
+    o->lines.count = kept;
 }
 
-/// Cuts the walls along an opening. `cuts` are then the lines that it goes through.
-static sl_status make_cuts(sli_geo *geo, opening *o) {
+static sl_status find_cuts(sli_geo *geo, opening *o) {
     for (size_t i = 0; i < geo->map->wall_count; i++) {
-        cut found = {.wall = i};
+        cut found = {.wall = i, .number = o->cuts.count};
         if (i % 65536 == 0) SL_TRY(sl_check_cancelled(geo->context));
         if (!find_cut(o, &geo->map->walls[i], &found)) continue;
         SL_TRY(SL_ARRAY_ROOM(geo->context, &o->cuts, 1));
         o->cuts.items[o->cuts.count++] = found;
     }
-    o->in_gap = o->cuts.count > 0;
-    drop_short(o);
-    sort(o, compare_walls);
-    for (size_t i = 0; i < o->cuts.count; i++) SL_TRY(cut_wall(geo, o, &o->cuts.items[i]));
-    join_cuts(o);
+    return SL_OK;
+}
+
+/// Cuts the walls along an opening, and finds the lines that it goes through.
+static sl_status make_cuts(sli_geo *geo, opening *o) {
+    SL_TRY(find_cuts(geo, o));
+    const size_t count = o->cuts.count;
+    o->in_gap = count > 0;
+    if (!count) return SL_OK;
+    SL_TRY(SL_ARRAY_ROOM(geo->context, &o->lines, count));
+    memcpy(o->lines.items, o->cuts.items, count * sizeof *o->cuts.items);
+    o->lines.count = count;
+    qsort(o->lines.items, count, sizeof *o->lines.items, compare_cuts);
+    keep_long(o);
+    for (size_t i = 0; i < count; i++)
+        if (o->cuts.items[i].kept) SL_TRY(cut_wall(geo, o, &o->cuts.items[i]));
+    join_lines(o);
     return SL_OK;
 }
 
@@ -169,13 +174,13 @@ static sl_status fill(sli_geo *geo, const opening *o, sl_point p, sl_point q) {
 static sl_status add_opening(sli_geo *geo, opening *o) {
     o->length = hypot(o->q.x - o->p.x, o->q.y - o->p.y);
     SL_TRY(make_cuts(geo, o));
-    if (!o->cuts.count) {
+    if (!o->lines.count) {
         geo->no_walls += !o->in_gap;
         return fill(geo, o, o->p, o->q);
     }
     geo->cuts++;
-    for (size_t i = 0; i < o->cuts.count; i++) {
-        const cut *c = &o->cuts.items[i];
+    for (size_t i = 0; i < o->lines.count; i++) {
+        const cut *c = &o->lines.items[i];
         SL_TRY(fill(geo, o, c->p, c->q));
         if (!i) continue;
         SL_TRY(sl_map_add_wall(geo->context, geo->map, c[-1].p, c->p, o->item));
@@ -272,6 +277,7 @@ static sl_status add_door(sli_geo *geo, size_t number) {
         else
             status = add_opening(geo, &o);
         sl_free(geo->context, o.cuts.items);
+        sl_free(geo->context, o.lines.items);
         SL_TRY(status);
     }
     return SL_OK;

@@ -1,6 +1,9 @@
 /// What GeoJSON holds that is no plan: points alone, open lines of streets that nothing names,
-/// several sites far apart, footprints of a town, and levels that their rooms do not fill.
+/// several sites far apart, entrances that are areas, footprints of a town, and levels that their
+/// rooms do not fill.
 #include "io/geojson/geojson.h"
+#include "io/parts/names.h"
+#include "map/source.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -158,12 +161,7 @@ sl_status sli_geo_doubt(const sli_geo *geo) {
     return SL_OK;
 }
 
-// --- footprints
-
-/// Map projections count metres or feet from far away. Towns have many outlines, are larger than a
-/// house in either unit, and their buildings leave ground between them.
-enum { FOOTPRINTS = 8 };
-static const double PROJECTED = 100000, TOWN = 1000, BUILT = 0.5, ENTRANCE = 1.2;
+// --- areas
 
 static double area_of(const sli_geo *geo, const sli_geo_line *line) {
     const sl_point *p = geo->points.items + line->first;
@@ -172,6 +170,64 @@ static double area_of(const sli_geo *geo, const sli_geo_line *line) {
         twice +=
             (p[i - 1].x - p[0].x) * (p[i].y - p[0].y) - (p[i].x - p[0].x) * (p[i - 1].y - p[0].y);
     return fabs(twice) / 2;
+}
+
+static double longest_side(const sli_geo *geo, const sli_geo_line *line) {
+    const sl_point *p = geo->points.items + line->first;
+    double longest = 0;
+    for (size_t i = 1; i < line->count; i++)
+        longest = fmax(longest, hypot(p[i].x - p[i - 1].x, p[i].y - p[i - 1].y));
+    return longest;
+}
+
+/// An area of an entrance is no door from this share of a usual room on, and this share as wide as
+/// it is long.
+static const double HALL = 0.1, HALL_WIDE = 1.0 / 3;
+
+sl_status sli_geo_find_halls(sli_geo *geo) {
+    double *areas = sl_alloc_array(geo->context, geo->features.count, sizeof *areas);
+    size_t rooms = 0, walls = 0;
+    if (!areas) return SL_NO_MEMORY;
+    for (size_t i = 0; i < geo->features.count; i++) {
+        const sli_geo_feature *f = &geo->features.items[i];
+        walls += sli_says_solid(f->layer);
+        if (f->count && geo->lines.items[f->first].ring &&
+            (f->means == SLI_GEO_WALL || f->means == SLI_GEO_UNSAID))
+            areas[rooms++] = area_of(geo, &geo->lines.items[f->first]);
+    }
+    if (rooms) qsort(areas, rooms, sizeof *areas, sl_compare_numbers);
+    const double least = rooms && !walls ? HALL * areas[rooms / 2] : INFINITY;
+    sl_free(geo->context, areas);
+    for (size_t i = 0; i < geo->features.count; i++) {
+        sli_geo_feature *f = &geo->features.items[i];
+        const sli_geo_line *line = geo->lines.items + f->first;
+        if (f->means != SLI_GEO_DOOR || f->count != 1 || !line->ring) continue;
+        const double area = area_of(geo, line), longest = longest_side(geo, line);
+        if (area >= least && area >= HALL_WIDE * longest * longest) f->means = SLI_GEO_NO_WALL;
+    }
+    return SL_OK;
+}
+
+// --- towns
+
+/// Map projections count metres or feet from far away. Towns have many outlines, are larger than a
+/// house in either unit, and their buildings leave ground between them.
+enum { FOOTPRINTS = 8 };
+static const double PROJECTED = 100000, TOWN = 1000, BUILT = 0.5, ENTRANCE = 1.2;
+
+bool sli_geo_is_plan(const sli_geo *geo) {
+    sl_box all = nothing;
+    size_t count = 0, buildings = 0;
+    if (geo->guessed && sli_geo_says_building(sl_path_name(geo->name))) return false;
+    for (size_t i = 0; i < geo->features.count; i++) {
+        const sli_geo_feature *f = &geo->features.items[i];
+        if (!f->taken || f->means != SLI_GEO_WALL || !f->count) continue;
+        join(&all, box_of(geo, f));
+        count++;
+        buildings += sli_geo_says_building(f->layer);
+    }
+    return count && 2 * buildings < count &&
+           fmax(all.max.x - all.min.x, all.max.y - all.min.y) < TOWN;
 }
 
 typedef struct outline {

@@ -239,6 +239,7 @@ static sl_status read_all(sli_geo *geo, const char *text, size_t size) {
     SL_TRY(add_all(geo));
     if (!lines) SL_TRY(sli_geo_add_doors(geo));
     if (!lines) SL_TRY(sli_geo_add_names(geo));
+    geo->map->entrance_may_be_wide = sli_geo_is_plan(geo);
     drop_points(geo->map);
     if (!lines || geo->map->earth.known)
         geo->map->precision = sli_marked_precision(geo->map, geo->finest, NULL, 0);

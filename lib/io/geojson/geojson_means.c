@@ -37,6 +37,10 @@ static sli_geo_meaning by_words(const char *name) {
     return means;
 }
 
+bool sli_geo_says_building(const char *word) {
+    return by_words(word) == SLI_GEO_WALL;
+}
+
 static sli_geo_meaning meaning_of(const char *word) {
     static const struct {
         const char *word;
@@ -120,6 +124,10 @@ static void find_meaning(const sli_geo *geo, sli_geo_feature *feature) {
         feature->layer = tag;
         feature->means = meaning_of(tag);
     }
+    if (!feature->means && *feature->by_file) {
+        feature->layer = feature->by_file;
+        feature->means = meaning_of(feature->by_file);
+    }
     feature->means = by_category(feature);
     const char *way = way_of(feature);
     if (way && (!feature->means || feature->means == SLI_GEO_NO_WALL)) {
@@ -165,7 +173,7 @@ sl_status sli_geo_find_meanings(sli_geo *geo) {
         geo->levels.items[geo->levels.count++] = i;
     }
     take_other_rooms(geo);
-    return SL_OK;
+    return sli_geo_find_halls(geo);
 }
 
 // --- levels

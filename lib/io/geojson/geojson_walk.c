@@ -92,6 +92,7 @@ static sl_status begin_feature(sli_geo *geo, const sli_json *feature) {
         .feature = feature ? feature->value : NULL,
         .properties = feature ? sli_json_member(feature, "properties").value : NULL,
         .layer = "",
+        .by_file = geo->by_file,
         .first = geo->lines.count};
     return SL_OK;
 }
@@ -159,33 +160,43 @@ static sl_status walk(sli_geo *geo, const char *name, const char *text, size_t s
     return typed ? read_object(geo, &root, 0) : read_named(geo, &root);
 }
 
-/// The files of a set of IMDF (Apple's Indoor Mapping Data Format) that belong to its units.
-static sl_status walk_beside(sli_geo *geo) {
-    static const char *const beside[SLI_GEO_FILES - 1] = {"opening.geojson", "level.geojson",
-                                                          "fixture.geojson"};
-    if (strcmp(sl_path_name(geo->name), "unit.geojson") != 0) return SL_OK;
-    for (size_t i = 0; i < SLI_GEO_FILES - 1; i++) {
-        char *path =
-                 sli_beside_path(geo->context, geo->name, (sli_word){beside[i], strlen(beside[i])}),
-             *from = NULL;
-        if (!path) return SL_NO_MEMORY;
-        const bool there = sli_beside_is_there(path);
-        sl_free(geo->context, path);
-        if (!there) continue;
-        sl_bytes bytes = {0};
-        SL_TRY(sli_beside_read(geo->context, geo->name, beside[i], &from, &bytes));
-        // Messages may name the file as long as its tree is open.
-        const sl_status status = walk(geo, beside[i], bytes.data, bytes.size);
-        sl_free(geo->context, from);
-        sl_free(geo->context, bytes.data);
-        SL_TRY(status);
-    }
-    return SL_OK;
+/// The kinds of IMDF (Apple's Indoor Mapping Data Format) that belong to a plan. A set has a file
+/// of each, whose name says what its features are where they do not.
+static const char *const kinds[SLI_GEO_FILES] = {"unit", "opening", "level", "fixture"};
+
+/// The ending of `unit.geojson`, or of `unit2.geojson`, the file of another storey: its other files
+/// have the same. NULL for other files.
+static const char *ending_of_set(const sli_geo *geo) {
+    const char *name = sl_path_name(geo->name);
+    const size_t length = strlen(kinds[0]);
+    if (strncmp(name, kinds[0], length) != 0) return NULL;
+    const size_t number = strspn(name + length, "0123456789");
+    return strcmp(name + length + number, ".geojson") == 0 ? name + length : NULL;
+}
+
+/// Walks a file of the same set, if it is there.
+static sl_status walk_beside(sli_geo *geo, size_t kind, const char *ending) {
+    char *const name = geo->beside[kind], *from = NULL;
+    snprintf(name, sizeof geo->beside[kind], "%s%.40s", kinds[kind], ending);
+    char *path = sli_beside_path(geo->context, geo->name, (sli_word){name, strlen(name)});
+    if (!path) return SL_NO_MEMORY;
+    const bool there = sli_beside_is_there(path);
+    sl_free(geo->context, path);
+    if (!there) return SL_OK;
+    sl_bytes bytes = {0};
+    SL_TRY(sli_beside_read(geo->context, geo->name, name, &from, &bytes));
+    geo->by_file = kinds[kind];
+    const sl_status status = walk(geo, name, bytes.data, bytes.size);
+    sl_free(geo->context, from);
+    sl_free(geo->context, bytes.data);
+    return status;
 }
 
 sl_status sli_geo_open(sli_geo *geo, const char *text, size_t size) {
+    const char *ending = ending_of_set(geo);
+    geo->by_file = ending ? kinds[0] : "";
     SL_TRY(walk(geo, geo->name, text, size));
-    SL_TRY(walk_beside(geo));
+    for (size_t i = 1; ending && i < SLI_GEO_FILES; i++) SL_TRY(walk_beside(geo, i, ending));
     for (size_t i = 0; i < geo->features.count; i++) {
         sli_geo_feature *feature = &geo->features.items[i];
         if (!json_is_object(feature->properties)) feature->properties = NULL;

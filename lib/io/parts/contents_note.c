@@ -178,30 +178,41 @@ static double area_of_each(const sli_look *look) {
     return look->shapes ? look->area / (double)look->shapes : 0;
 }
 
-/// Adds the names of the looks that are taken, as --layers takes them, but for lettering and lines
-/// up to so wide; and of one more, NULL for none. With `rooms`, that one has them, and so have
-/// those of thicker lines that enclose areas of a fifth of its at least.
-static void say_looks(const sli_choice *c, double width, const sli_look *other, bool rooms,
-                      char *text, size_t size) {
-    const char *comma = "";
-    size_t used = 0;
-    for (int more = 0; more < 2; more++)
-        for (size_t i = 0; i < c->contents->looks.items.count; i++) {
-            const sli_look *look = &c->contents->looks.items.items[i];
-            const bool room = rooms && look->ink.line && look->ink.width > other->ink.width &&
-                              5 * area_of_each(look) >= area_of_each(other);
-            const bool named = more ? !look->taken && (look == other || room)
-                                    : look->kept && !(look->ink.line && look->ink.width <= width);
-            if (!named || !look->shapes || used + 2 * SLI_LOOK_NAME >= size) continue;
-            used += (size_t)snprintf(text + used, size - used, "%s%s", comma, look->name);
-            comma = ",";
-        }
+/// Names of looks, as --layers takes them.
+typedef struct look_names {
+    char text[400];
+    size_t used;
+} look_names;
+
+static void add_look(look_names *names, const sli_look *look) {
+    if (!look->shapes || names->used + 2 * SLI_LOOK_NAME >= sizeof names->text) return;
+    names->used += (size_t)snprintf(names->text + names->used, sizeof names->text - names->used,
+                                    "%s%s", names->used ? "," : "", look->name);
+}
+
+/// Adds the looks that are taken, but for lettering and lines up to so wide.
+static void add_taken(const sli_choice *c, double width, look_names *names) {
+    for (size_t i = 0; i < c->contents->looks.items.count; i++) {
+        const sli_look *look = &c->contents->looks.items.items[i];
+        if (look->kept && !(look->ink.line && look->ink.width <= width)) add_look(names, look);
+    }
+}
+
+/// Adds a look that has rooms, and those of thicker lines that enclose areas of a fifth of its at
+/// least.
+static void add_rooms(const sli_choice *c, const sli_look *rooms, look_names *names) {
+    for (size_t i = 0; i < c->contents->looks.items.count; i++) {
+        const sli_look *look = &c->contents->looks.items.items[i];
+        const bool thicker = look->ink.line && look->ink.width > rooms->ink.width &&
+                             5 * area_of_each(look) >= area_of_each(rooms);
+        if (!look->taken && (look == rooms || thicker)) add_look(names, look);
+    }
 }
 
 /// Walls by lines of two widths, of which the thin ones have most: tiles of floors are drawn so.
 static void note_thin(const sli_choice *c) {
     const sli_look *items = c->contents->looks.items.items, *most = NULL, *thick = NULL;
-    char looks[400] = "";
+    look_names names = {0};
     for (size_t i = 0; i < c->contents->looks.items.count; i++) {
         if (!items[i].taken || !items[i].ink.line) continue;
         if (!most || items[i].length > most->length) most = &items[i];
@@ -210,11 +221,11 @@ static void note_thin(const sli_choice *c) {
     if (!thick || thick->ink.width < THICK * most->ink.width || thick->walls < LEAST_THICK ||
         most->shapes < LEAST_THIN)
         return;
-    say_looks(c, thick->ink.width / THICK, NULL, false, looks, sizeof looks);
+    add_taken(c, thick->ink.width / THICK, &names);
     sl_note(c->contents->context,
             "%s: walls are drawn by thin lines (%s), and by thick ones: if the thin ones are tiles "
             "of a floor: --layers '%s'",
-            c->contents->file, most->name, looks);
+            c->contents->file, most->name, names.text);
 }
 
 /// Walls by their looks, where others may be walls as well as they: no look of a tenth of the
@@ -222,7 +233,7 @@ static void note_thin(const sli_choice *c) {
 static void note_share(const sli_choice *c) {
     const sli_look *taken = NULL, *other = NULL, *rooms = NULL;
     const char *file = c->contents->file;
-    char looks[400] = "";
+    look_names names = {0};
     for (size_t i = 0; i < c->contents->looks.items.count; i++) {
         const sli_look *look = &c->contents->looks.items.items[i];
         if (look->taken && (!taken || look->length > taken->length)) taken = look;
@@ -235,17 +246,21 @@ static void note_share(const sli_choice *c) {
     if (!taken || !other) return;
     const bool doubtful = c->share < 0.4 && LIGHT * other->weight >= taken->weight;
     if (!doubtful && !rooms) return;
-    say_looks(c, 0, doubtful ? other : rooms, !doubtful, looks, sizeof looks);
+    add_taken(c, 0, &names);
+    if (doubtful)
+        add_look(&names, other);
+    else
+        add_rooms(c, rooms, &names);
     if (doubtful)
         sl_note(c->contents->context,
                 "%s: what looks like walls has only %.0f %% of the long lines: if other looks are "
                 "walls, name all that are: --layers '%s'",
-                file, 100 * c->share, looks);
+                file, 100 * c->share, names.text);
     else
         sl_note(c->contents->context,
                 "%s: %s: %zu shapes as large as rooms are passed over: if these are walls: "
                 "--layers '%s'",
-                file, rooms->name, rooms->rooms, looks);
+                file, rooms->name, rooms->rooms, names.text);
 }
 
 /// Whether a group is to be named for its walls: one of those that are taken, of doors with lines
