@@ -90,7 +90,7 @@ sl_box sli_svg_no_clip(void);
 /// drawn.
 sl_status sli_svg_end_shape(sli_svg *s, const sl_box *clip, size_t first, uint32_t group);
 void sli_svg_settle_hatching(sli_svg *s);
-/// Passes over what lies beside the page, once all shapes are drawn.
+/// Passes over what lies beside the page, and its frame, once all shapes are drawn.
 sl_status sli_svg_settle_page(sli_svg *s);
 
 // --- svg_looks.c
