@@ -157,7 +157,8 @@ static const sl_map_format map_formats[] = {
      .endings = ".svg",
      .what = "an SVG drawing",
      .read = sli_map_read_svg,
-     .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE | SL_TAKES_DOORS | SL_TAKES_PLANS,
+     .takes = SL_TAKES_LAYERS | SL_TAKES_TOLERANCE | SL_TAKES_DOORS | SL_TAKES_PLANS |
+              SL_TAKES_THRESHOLD,
      .knows = knows_svg,
      .write = sli_map_print_svg,
      .keeps = KEEPS_LAYERS},

@@ -50,8 +50,7 @@ sl_status sli_map_read_dxf(sl_context *context, const char *name, const char *te
 
 /// The outlines of an SVG drawing's shapes, in its user units, y turned up. Layers are groups by id
 /// or label, taken by what they mean or as asked for; also those named "sightline-...". Shapes that
-/// are not seen are left out. What was
-/// taken is noted.
+/// are not seen are left out. A drawing that is a picture is read as that. What was taken is noted.
 sl_status sli_map_read_svg(sl_context *context, const char *name, const char *text, size_t size,
                            const sl_import_options *options, sl_map *map);
 

@@ -244,9 +244,10 @@ static sl_status take_plan(sl_context *context, const char *path, const char *wa
 /// A file of another program that shows nothing to hide behind. Pictures say it themselves.
 static void note_no_walls(sl_context *context, const char *path, const sl_map_format *format,
                           const sl_map *map) {
+    const bool picture =
+        (format->takes & SL_TAKES_THRESHOLD) && !(format->takes & SL_TAKES_TOLERANCE);
     if (map->wall_count || map->door_count || map->mirror_count || map->oneway_count ||
-        sl_map_partial_walls(map) || (format->takes & SL_TAKES_THRESHOLD) ||
-        strcmp(format->name, "text") == 0)
+        sl_map_partial_walls(map) || picture || strcmp(format->name, "text") == 0)
         return;
     sl_note(context,
             "%s: it has no walls, so nothing is hidden in it: %sdraw them in the program "

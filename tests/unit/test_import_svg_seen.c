@@ -109,7 +109,9 @@ static void test_paint(void **state) {
     assert_seen(true, SHAPE("fill-opacity='0' stroke='red'"));
     assert_seen(false, SHAPE("opacity='0' stroke='red'"));
     assert_seen(false, SHAPE("style='opacity:0%'"));
-    assert_seen(true, SHAPE("opacity='.01'"));
+    assert_seen(true, SHAPE("opacity='.04'"));
+    assert_seen(false, SHAPE("opacity='.01'"));
+    assert_seen(false, SHAPE("fill='none' stroke='red' stroke-opacity='3%'"));
     // What the groups about it say, but for what it says itself.
     assert_seen(false, "<g fill='none'>" SHAPE("") "</g>");
     assert_seen(true, "<g fill='none'>" SHAPE("fill='red'") "</g>");
@@ -319,7 +321,8 @@ static void test_memory(void **state) {
                                  "style='transform:scale(2);transform-box:fill-box'") ROOM SYMBOL));
 }
 
-/// A drawing that is a picture has no walls to read; one that nobody sees is none.
+/// A drawing that is a picture, alone or with a mark, has no walls to read; a picture that nobody
+/// sees is none.
 static void test_picture_alone(void **state) {
     (void)state;
     static const char seen[] = SVG("<text>x</text><image width='20' height='10' href='p.png'/>");
@@ -328,7 +331,12 @@ static void test_picture_alone(void **state) {
                       "f:2: the drawing has a picture and no walls: if the plan is in it, save it "
                       "as a PNG file, and read that");
     assert_walls(hidden, "");
-    assert_walls(SVG(GOOD "<image width='20' height='10' href='p.png'/>"), WALL);
+    static const char marked[] = SVG(GOOD "<image width='20' height='10' href='p.png'/>");
+    assert_refused_of(sli_map_read_svg, NULL, marked, strlen(marked), SL_BAD_INPUT,
+                      "f:3: the drawing has a picture, and few shapes (--layers '*' takes these): "
+                      "if the plan is in it, save it as a PNG file, and read that");
+    assert_walls(SVG(GOOD GOOD GOOD GOOD GOOD "<image width='20' height='10' href='p.png'/>"),
+                 WALL WALL WALL WALL WALL);
 }
 
 int main(void) {

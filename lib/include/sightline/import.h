@@ -22,9 +22,9 @@ typedef struct sl_import_options {
     const char *map;
     /// The layers to take, by name, with commas between; NULL for the format's own choice. "*" for
     /// all visible layers of a drawing (DXF, SVG), "large" or "large,A,B" for a drawing without
-    /// small closed pieces that touch nothing. "A=door,B=window" takes layers of a drawing for a
-    /// wall, door, window, furniture (it stops steps, and not sight) or ignores them ("=ignore");
-    /// the others stay as they are guessed.
+    /// small closed pieces that touch nothing, "picture" for the picture in a drawing (SVG).
+    /// "A=door,B=window" takes layers of a drawing for a wall, door, window, furniture (it stops
+    /// steps, and not sight) or ignores them ("=ignore"); the others stay as they are guessed.
     const char *layers;
     /// The names of objects that are starts, with commas between; "" or "none" for no starts; NULL
     /// for the usual names (player, spawn, start ...). Letters and capitals are the same.

@@ -38,6 +38,10 @@ sl_status sli_image_add_walls(sl_context *context, const sl_image *image,
 sl_status sli_image_find_small(sl_context *context, sli_grid *grid, bool open,
                                sli_image_small *out);
 
+/// As sli_map_read_image(); `before` stands before the names of layers in messages.
+sl_status sli_image_read_map(sl_context *context, const char *name, const char *text, size_t size,
+                             const sl_import_options *options, const char *before, sl_map *map);
+
 // --- what is solid
 
 /// Whether the walls are what is opaque: thin, mostly light, and the rest is transparent.

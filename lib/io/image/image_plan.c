@@ -40,6 +40,7 @@ typedef struct reader {
     sl_context *context;
     const char *name;
     const sl_import_options *options;
+    const char *before; ///< in messages: stands before the names of layers
     sl_image image;
     unsigned char *alpha; ///< NULL for none
     size_t *row;
@@ -94,20 +95,20 @@ static void note_doubts(const reader *r, const sli_image_levels *levels, size_t 
     if (solid == 0)
         sl_note(r->context,
                 "%s: no pixel is solid: --threshold T takes fainter ones, "
-                "--layers light or opaque others",
-                r->name);
+                "--layers %slight or %sopaque others",
+                r->name, r->before, r->before);
     else if (!given && levels->lost > solid / 50)
         sl_note(r->context,
                 "%s: %zu grey pixels (%s about %g) are open; if walls are among them: "
                 "--threshold %g",
                 r->name, levels->lost, words[r->solid], levels->lost_level, levels->lost_from);
-    if (small->count)
-        sl_note(r->context,
-                "%s: %zu small piece%s of up to %zu x %zu pixels %s nothing (lettering, symbols, "
-                "columns): %s",
-                r->name, small->count, small->count == 1 ? "" : "s", small->width, small->height,
-                small->count == 1 ? "touches" : "touch",
-                large ? "left out" : "walls too; --layers large leaves them out");
+    if (!small->count) return;
+    sl_note(r->context,
+            "%s: %zu small piece%s of up to %zu x %zu pixels %s nothing (lettering, symbols, "
+            "columns): %s%s%s",
+            r->name, small->count, small->count == 1 ? "" : "s", small->width, small->height,
+            small->count == 1 ? "touches" : "touch", large ? "left out" : "walls too; --layers ",
+            large ? "" : r->before, large ? "" : "large leaves them out");
 }
 
 static void note_taken(const reader *r, const sli_image_plan *plan, size_t solid, size_t walls,
@@ -115,14 +116,15 @@ static void note_taken(const reader *r, const sli_image_plan *plan, size_t solid
     static const char *const kinds[] = {"darkness", "light on a dark ground: lightness",
                                         "opaque on a transparent ground: opacity"};
     static const char *const asked[] = {"darkness", "lightness", "opacity"};
-    static const char *const turns[] = {"; --layers light takes the light ones",
-                                        "; --layers dark takes the dark ones",
-                                        "; --layers dark takes the dark ones"};
+    static const char *const turns[] = {"light", "dark", "dark"};
+    char turn[64] = "";
+    if (!r->said)
+        snprintf(turn, sizeof turn, "; --layers %s%s takes the %s ones", r->before, turns[r->solid],
+                 turns[r->solid]);
     sl_note(r->context, "%s: %zu of %zu x %zu pixels are solid (%s from %g%s); %zu wall%s%s",
             r->name, solid, r->image.width, r->image.height,
             r->said ? asked[r->solid] : kinds[r->solid], plan->threshold,
-            faint ? ", as the lines are faint" : "", walls, walls == 1 ? "" : "s",
-            r->said ? "" : turns[r->solid]);
+            faint ? ", as the lines are faint" : "", walls, walls == 1 ? "" : "s", turn);
 }
 
 static sl_status read_plan(reader *r, const char *text, size_t size, sl_map *map) {
@@ -148,9 +150,9 @@ static sl_status read_plan(reader *r, const char *text, size_t size, sl_map *map
     return SL_OK;
 }
 
-sl_status sli_map_read_image(sl_context *context, const char *name, const char *text, size_t size,
-                             const sl_import_options *options, sl_map *map) {
-    reader r = {.context = context, .name = name, .options = options};
+sl_status sli_image_read_map(sl_context *context, const char *name, const char *text, size_t size,
+                             const sl_import_options *options, const char *before, sl_map *map) {
+    reader r = {.context = context, .name = name, .options = options, .before = before};
     sl_map read = {0};
     const sl_status status = read_plan(&r, text, size, &read);
     sl_image_destroy(context, &r.image);
@@ -161,4 +163,9 @@ sl_status sli_map_read_image(sl_context *context, const char *name, const char *
     else
         sl_map_destroy(context, &read);
     return status;
+}
+
+sl_status sli_map_read_image(sl_context *context, const char *name, const char *text, size_t size,
+                             const sl_import_options *options, sl_map *map) {
+    return sli_image_read_map(context, name, text, size, options, "", map);
 }

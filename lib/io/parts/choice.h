@@ -1,5 +1,5 @@
-/// The choice among what is drawn: shared by contents.c, which makes it, contents_doors.c, and
-/// contents_note.c, which tells of it.
+/// The choice among what is drawn: shared by contents.c, which makes it, contents_doors.c,
+/// contents_parts.c, and contents_note.c, which tells of it.
 #ifndef SL_CHOICE_H
 #define SL_CHOICE_H
 
@@ -55,6 +55,12 @@ double sli_choice_longest_door(const sli_choice *c);
 void sli_choice_take_both(const sli_choice *c);
 /// Notes these layers, and what they are taken for.
 void sli_choice_note_both(const sli_choice *c);
+
+/// Where no name says what is a wall: finds what is no wall by its shape, among what is taken
+/// (contents_parts.c).
+sl_status sli_choice_find_parts(sli_choice *c);
+/// Takes small pieces out of the walls, as --layers large asks; says so.
+sl_status sli_choice_keep_large(const sli_choice *c, sli_pen *pen);
 
 /// Finds the openings that lie over walls: bars, doors of layers and swings (contents_doors.c).
 /// Bars that cut are no walls themselves. Where doors are drawn as doors, other bars are windows.

@@ -19,16 +19,8 @@
 
 // --- groups and their walls
 
-/// So many names are told apart; each is held against some thousand words. Of walls by their looks
-/// a tenth may be something else by its shape.
-enum {
-    MOST_GROUPS = 4096,
-    LEAST_WALLS = 3,
-    LEAST_DOORS = 3,
-    LEAST_LONG = 2,
-    MOST_OUTLINES = 3,
-    MOST_BESIDE = 10
-};
+/// So many names are told apart; each is held against some thousand words.
+enum { MOST_GROUPS = 4096, LEAST_WALLS = 3, LEAST_DOORS = 3, LEAST_LONG = 2, MOST_OUTLINES = 3 };
 
 void sli_contents_destroy(sli_contents *contents) {
     for (size_t i = 0; i < contents->groups.count; i++)
@@ -369,35 +361,6 @@ static bool choose_groups(sli_choice *c) {
     return changes && (c->kept >= LEAST_WALLS || sli_contents_said(c->contents));
 }
 
-/// Where no name says what is a wall: finds what is no wall by its shape, among what is taken.
-/// Looks have told walls from the rest, so a legend or a frame may be left beside them; where it
-/// seems to be more, it may be walls.
-static sl_status find_parts(sli_choice *c) {
-    sl_context *context = c->contents->context;
-    if (c->walls_named || c->contents->options->all_layers) return SL_OK;
-    const size_t count = c->map->wall_count;
-    sl_map taken = {0};
-    size_t *number = sl_alloc_array(context, count, sizeof *number);
-    taken.walls = sl_alloc_array(context, count, sizeof *taken.walls);
-    sl_status status = number && taken.walls ? SL_OK : SL_NO_MEMORY;
-    for (size_t i = 0; status == SL_OK && i < count; i++) {
-        if (sli_choice_gone(c, i) || !sli_choice_takes(c, c->means[i])) continue;
-        number[taken.wall_count] = i;
-        taken.walls[taken.wall_count++] = c->map->walls[i];
-    }
-    if (status == SL_OK)
-        status = sli_plan_parts_find(context, &taken, sli_choice_metre(c), &c->parts);
-    const size_t others = sli_plan_parts_count(&c->parts) - c->parts.loose;
-    if (c->by_looks && MOST_BESIDE * others > taken.wall_count)
-        sli_plan_parts_destroy(context, &c->parts);
-    for (size_t i = 0; status == SL_OK && c->parts.gone && i < taken.wall_count; i++)
-        if (sl_bits_has(c->parts.gone, i)) sl_bits_add(c->symbols.gone, number[i]);
-    c->kept -= sli_plan_parts_count(&c->parts);
-    sl_free(context, number);
-    sl_free(context, taken.walls);
-    return status;
-}
-
 // --- what layers are taken for
 
 /// What most walls of a layer are taken for; those that a symbol is made of do not count.
@@ -584,7 +547,7 @@ static void measure(sli_choice *c) {
 static sl_status choose(sli_choice *c, sli_pen *pen) {
     SL_TRY(find_means(c));
     bool chosen = choose_groups(c);
-    SL_TRY(find_parts(c));
+    SL_TRY(sli_choice_find_parts(c));
     chosen |= sli_plan_parts_count(&c->parts) > 0;
     SL_TRY(sli_choice_find_openings(c));
     chosen |= c->cuts + c->glazed > 0;
@@ -606,22 +569,6 @@ static sl_status choose(sli_choice *c, sli_pen *pen) {
         pen->walls -= c->contents->groups.items[i].walls;
     pen->walls += c->kept;
     sli_choice_note(c);
-    return SL_OK;
-}
-
-/// Takes small pieces out of what was chosen, and says so.
-static sl_status keep_large(sli_contents *contents, double metre, sli_pen *pen) {
-    sli_plan_look look;
-    SL_TRY(sli_plan_keep_large(contents->context, pen->map, metre, &look));
-    const size_t gone = look.walls - pen->map->wall_count;
-    pen->walls -= gone;
-    if (look.crowded)
-        sl_note(contents->context, "%s: %zu lines are too many, or too dense, for --layers %s",
-                contents->file, look.walls, SLI_LAYERS_LARGE);
-    else
-        sl_note(contents->context,
-                "%s: --layers %s leaves out %zu line%s, in small closed pieces that touch nothing",
-                contents->file, SLI_LAYERS_LARGE, gone, gone == 1 ? "" : "s");
     return SL_OK;
 }
 
@@ -650,7 +597,7 @@ sl_status sli_contents_choose(sli_contents *contents, double metre, sli_pen *pen
     contents->walls_named = c.walls_named;
     sli_plan_unit_entrance(pen->map, contents->door, contents->doors);
     pen->map->entrance_may_be_wide = contents->runs.count > 0;
-    if (status == SL_OK && contents->large) status = keep_large(contents, metre, pen);
+    if (status == SL_OK && contents->large) status = sli_choice_keep_large(&c, pen);
     if (status == SL_OK && !contents->options->all_layers)
         status = sli_plan_tell(contents->context, contents->file, contents->options->layers,
                                are_alike(&c), pen->map, metre, 0);

@@ -286,11 +286,12 @@ static const sli_look *heaviest(const chooser *c, bool tints) {
     return best;
 }
 
-/// Whether a look is of coloured lines, and the heaviest is grey. Two tones of a faint colour are
-/// alike: pale blue walls, and steel blue ones.
+/// Whether a look is coloured, and the heaviest is grey: lines, or what fills more than bars as
+/// thick as walls, such as labels. Two tones of a faint colour are alike: pale blue walls, and
+/// steel blue ones.
 static bool is_beside_grey(const sli_look *look, const sli_look *best) {
-    return look->ink.line && is_coloured(look) && !is_coloured(best) &&
-           2 * chroma(look) > 3 * chroma(best);
+    const bool bar = !look->ink.line && 2 * thickness(look) <= 3 * thickness(best);
+    return !bar && is_coloured(look) && !is_coloured(best) && 2 * chroma(look) > 3 * chroma(best);
 }
 
 /// Whether a look is one of walls beside the heaviest. What is filled as darkly may be columns,
@@ -472,7 +473,7 @@ static double share_of(const chooser *c, const sli_look *best) {
     double taken = 0, rest = 0;
     for (size_t i = 0; i < c->looks->items.count; i++) {
         sli_look *look = &c->looks->items.items[i];
-        if (best && !look->taken && is_beside_grey(look, best)) look->length = 0;
+        if (best && look->ink.line && !look->taken && is_beside_grey(look, best)) look->length = 0;
         if (look->taken)
             taken += look->length;
         else

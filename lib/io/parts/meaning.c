@@ -144,7 +144,8 @@ static const word_list lists[SLI_MEANINGS] = {
     [SLI_MEANS_TEXT] =
         {"text",
          "text* txt mtext anno annot* note notation label* lettering dim dims dimension* leader "
-         "tag symb symbol* iden ident schedule* sched legend* number* numbering rev revision* "
+         "tag glyph* symb symbol* iden ident schedule* sched legend* number* numbering rev "
+         "revision* "
          "revc cloud keynote* name header caption* beschrift* beschr bemas* masslini* maslini* "
          "vermass* vermas* hinweis* cote cotation* cota acotac* acotad* etiquett* etiqueta* nom "
          "testo testi quota quote quotat* annotaz* etichett* scritte nomi rotul* leyenda* cotagem "

@@ -14,6 +14,8 @@
 
 /// The first name of a list that asks for large pieces only, in small letters.
 #define SLI_LAYERS_LARGE "large"
+/// Layers of an SVG drawing that has none of this name: the picture in it.
+#define SLI_LAYERS_PICTURE "picture"
 
 /// The next name of a list, moving `*list` behind it, without the blanks about it; false at the
 /// end. Empty names are passed over.

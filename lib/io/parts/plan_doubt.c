@@ -95,6 +95,34 @@ static sl_status count_across(sli_plan_net *n, sli_plan_look *out) {
     return SL_OK;
 }
 
+/// The box about all pieces but one; empty where there are none.
+static sl_box box_of_others(const sli_plan_net *n, uint32_t piece) {
+    sl_box box = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+    for (uint32_t i = 0; i < n->map->wall_count; i++) {
+        const uint32_t first = sl_root_of(n->piece, i);
+        if (first != i || first == piece) continue;
+        box = sli_box_with(sli_box_with(box, n->boxes[i].min), n->boxes[i].max);
+    }
+    return box;
+}
+
+/// Sets the box that has all but one piece, with some room; none where the piece comes near it.
+static void set_others(const sli_plan_net *n, uint32_t piece, sli_plan_look *out) {
+    const double room = n->size / 100, digit = pow(10, floor(log10(room / 2)));
+    const sl_box box = box_of_others(n, piece);
+    const sl_box wide = {
+        {floor((box.min.x - room) / digit) * digit, floor((box.min.y - room) / digit) * digit},
+        {ceil((box.max.x + room) / digit) * digit, ceil((box.max.y + room) / digit) * digit}};
+    for (uint32_t i = 0; i < n->map->wall_count; i++) {
+        const sl_wall *wall = &n->map->walls[i];
+        const sl_box at = sli_box_around(wall->a, wall->b);
+        if (sl_root_of(n->piece, i) == piece && at.min.x <= wide.max.x && at.max.x >= wide.min.x &&
+            at.min.y <= wide.max.y && at.max.y >= wide.min.y)
+            return;
+    }
+    out->others = wide;
+}
+
 /// Whether a piece of four upright and level walls has all else in it, with room on all sides, and
 /// something large among that.
 static bool is_frame(sli_plan_net *n, uint32_t piece) {
@@ -157,8 +185,10 @@ static sl_status find_all(sli_plan_net *n, sli_plan_look *out) {
     for (uint32_t i = 0; i < count; i++) {
         if (sl_root_of(n->piece, i) != i) continue;
         pieces++;
-        out->frame |= is_frame(n, i);
-        out->site |= is_site(n, i);
+        const bool frame = is_frame(n, i), site = is_site(n, i);
+        if (frame || (site && !out->frame)) set_others(n, i, out);
+        out->frame |= frame;
+        out->site |= site;
     }
     const size_t lines = count + n->ends_on_sides + n->crossings.count + pieces;
     out->walls = count;
@@ -247,6 +277,25 @@ static void note_small(sl_context *context, const char *file, const char *layers
                 file, share, next);
 }
 
+/// What is about all else, with the option that leaves it out.
+static void note_around(sl_context *context, const char *file, const sli_plan_look *look) {
+    const sl_box box = look->others;
+    char option[120] = "--layers A,B";
+    if (box.min.x < box.max.x)
+        snprintf(option, sizeof option, "--crop %.10g,%.10g,%.10g,%.10g", box.min.x, box.min.y,
+                 box.max.x, box.max.y);
+    if (look->frame)
+        sl_note(context,
+                "%s: a rectangle about all else touches nothing: if it is the frame of a sheet, "
+                "what is inside is wrong: %s leaves it out",
+                file, option);
+    else if (look->site)
+        sl_note(context,
+                "%s: a line around all else touches nothing, and half of what is in it is empty: "
+                "if it is the boundary of a site, what is inside is wrong: %s leaves it out",
+                file, option);
+}
+
 sl_status sli_plan_tell(sl_context *context, const char *file, const char *layers, bool alike,
                         const sl_map *map, double metre, double tolerance) {
     sli_plan_look look;
@@ -274,17 +323,7 @@ sl_status sli_plan_tell(sl_context *context, const char *file, const char *layer
     if (look.across >= 8 && 12 * look.across >= look.walls)
         sl_note(context, "%s: %zu short lines cross walls: doors or symbols drawn over them? %s",
                 file, look.across, next);
-    if (look.frame)
-        sl_note(context,
-                "%s: a rectangle about all else touches nothing: if it is the frame of a sheet, "
-                "what is inside is wrong: --layers A,B leaves it out",
-                file);
-    else if (look.site)
-        sl_note(
-            context,
-            "%s: a line around all else touches nothing, and half of what is in it is empty: if "
-            "it is the boundary of a site, what is inside is wrong: --layers A,B leaves it out",
-            file);
+    note_around(context, file, &look);
     if (look.walls >= 10 && !look.closed)
         sl_note(context,
                 "%s: its lines enclose nothing: if it is a plan, walls are missing: sightline info "

@@ -18,6 +18,7 @@ typedef struct sli_plan_look {
     bool crowded;        ///< too many walls, or crowds of them, to look at: all else is 0
     bool frame;          ///< a rectangle holds all else, at a distance, and touches nothing
     bool site;           ///< a ring of any shape does, and half of what is in it is empty
+    sl_box others;       ///< what these hold, with some room; no width where they come near it
 } sli_plan_look;
 
 /// `metre` is a metre in the map's unit, 0 for unknown; `tolerance` how far apart ends may be that

@@ -77,6 +77,9 @@ static const char *asked_layers(const svg *s) {
     return s->contents.roles ? s->contents.roles : s->options->layers;
 }
 
+/// The picture is asked for by this name, where no layer has it.
+static const sli_word picture_name = {SLI_LAYERS_PICTURE, sizeof SLI_LAYERS_PICTURE - 1};
+
 static sl_status check_layers(const svg *s, xmlNode *root) {
     const char *list = asked_layers(s);
     sli_meaning means;
@@ -505,7 +508,9 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     double box[4], height = 0;
     bool told = false;
     s->pen.line = sli_xml_line(root);
-    SL_TRY(check_layers(s, root));
+    const bool picture =
+        sli_svg_picture_asked(s) && !has_layer(root, picture_name, &(sli_name_list){.full = false});
+    if (!picture) SL_TRY(check_layers(s, root));
     SL_TRY(read_view_box(s, root, box));
     if (box[2] > 0)
         height = box[1] + box[3];
@@ -537,7 +542,12 @@ static sl_status draw_root(svg *s, xmlNode *root) {
     sli_svg_settle_hatching(s);
     SL_TRY(sli_svg_settle_page(s));
     if (s->list) return sli_contents_list(&s->contents, s->pen.map, 0, s->list);
-    SL_TRY(sli_svg_check_picture(s));
+    if (picture || sli_svg_is_picture(s)) return sli_svg_read_picture(s);
+    if (s->options->threshold > 0)
+        return sl_fail(s->context, SL_BAD_ARGUMENT,
+                       "--threshold: %s is read as an SVG drawing, which has no use for it; "
+                       "--layers " SLI_LAYERS_PICTURE " reads the picture in a drawing",
+                       s->pen.name);
     SL_TRY(check_looks(s, root));
     SL_TRY(sli_contents_choose(&s->contents, 0, &s->pen));
     s->shapes -= s->contents.left_out;

@@ -1,7 +1,7 @@
 /// An SVG drawing while it is read: its shapes (svg_shapes.c) with their numbers and paths
 /// (svg_path.c), through transforms (svg_transform.c), as far as they are seen (svg_style.c,
 /// svg_place.c), but for hatching (svg_hatching.c) and what lies beside the page (svg_page.c).
-/// svg.c goes through the elements and makes a map of them.
+/// svg.c goes through the elements and makes a map of them, or svg_picture.c of a picture in it.
 #ifndef SL_SVG_H
 #define SL_SVG_H
 
@@ -35,11 +35,11 @@ typedef struct sli_svg {
     SL_ARRAY(sl_box) clips;   ///< boxes of clips that were used, in their own places
     SL_ARRAY(double) strokes; ///< widths of lines that are not filled, in the map
     SL_ARRAY(sli_svg_hatch) hatches;
-    size_t all_shapes; ///< of the file, seen or not
-    double picture;    ///< the area of the largest picture, in the map
-    uint32_t picture_line;
-    char *mark;     ///< the sum of the digits that the file's writer knew
-    bool by_number; ///< walls have the number of their shape in place of its line
+    size_t all_shapes;           ///< of the file, seen or not
+    double picture;              ///< the area of the largest picture, in the map
+    const xmlNode *picture_node; ///< NULL for none that is seen
+    char *mark;                  ///< the sum of the digits that the file's writer knew
+    bool by_number;              ///< walls have the number of their shape in place of its line
 } sli_svg;
 
 /// Where an element stands, and what it has of the elements about it.
@@ -90,7 +90,7 @@ sl_box sli_svg_no_clip(void);
 /// drawn.
 sl_status sli_svg_end_shape(sli_svg *s, const sl_box *clip, size_t first, uint32_t group);
 void sli_svg_settle_hatching(sli_svg *s);
-/// Passes over what lies beside the page, once all shapes are drawn.
+/// Passes over what lies beside the page, and its frame, once all shapes are drawn.
 sl_status sli_svg_settle_page(sli_svg *s);
 
 // --- svg_looks.c
@@ -107,10 +107,16 @@ sl_status sli_svg_find_look(sli_svg *s, sli_svg_shape kind, sli_svg_place *at);
 sl_status sli_svg_keep_stroke(sli_svg *s, const sli_svg_place *at);
 /// Walls run along the middle of lines: notes wide ones, which may be meant as walls of that width.
 void sli_svg_note_strokes(const sli_svg *s);
+// --- svg_picture.c
+
 /// Keeps the largest picture: a plan may be in it.
 void sli_svg_keep_picture(sli_svg *s, xmlNode *node, const sli_svg_place *at);
-/// SL_BAD_INPUT for a drawing with a picture, and nothing that is drawn.
-sl_status sli_svg_check_picture(const sli_svg *s);
+/// Whether the options ask for the picture: "picture", perhaps with what of it is solid behind.
+bool sli_svg_picture_asked(const sli_svg *s);
+/// Whether the plan is in a picture: nothing else is drawn, or a few boxes or small marks.
+bool sli_svg_is_picture(const sli_svg *s);
+/// Makes the map of the picture. SL_BAD_INPUT where it is not embedded as PNG.
+sl_status sli_svg_read_picture(sli_svg *s);
 /// Notes a picture as large as a quarter of the drawing: what it shows is not read.
 void sli_svg_note_picture(const sli_svg *s);
 

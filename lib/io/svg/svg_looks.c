@@ -1,5 +1,5 @@
-/// What the looks of a drawing's shapes tell: which layer a shape belongs to, lines that are as
-/// wide as walls, and pictures that may hold the plan.
+/// What the looks of a drawing's shapes tell: which layer a shape belongs to, and lines that are as
+/// wide as walls.
 #include "io/parts/document.h"
 #include "io/parts/names.h"
 #include "io/svg/svg.h"
@@ -78,76 +78,11 @@ void sli_svg_note_strokes(const svg *s) {
                 s->pen.name, wide, wide == 1 ? " is" : "s are", widest);
 }
 
-// --- pictures
+// --- lengths
 
 bool sli_svg_has_percent(xmlNode *node, const char *name) {
     char *text = sli_xml_attribute(node, name);
     const bool percent = text && strchr(text, '%');
     sli_xml_free(text);
     return percent;
-}
-
-void sli_svg_keep_picture(svg *s, xmlNode *node, const place *at) {
-    double width = 0, height = 0;
-    sli_svg_look look;
-    place own = *at;
-    bool seen = true;
-    if (sli_svg_has_percent(node, "width") || sli_svg_has_percent(node, "height")) {
-        width = at->view.max.x, height = at->view.max.y;
-    } else if (sli_svg_length(s, node, "width", &width) != SL_OK ||
-               sli_svg_length(s, node, "height", &height) != SL_OK) {
-        return;
-    }
-    sli_svg_look_read(&s->style, node, &look);
-    const bool hidden = sli_word_is(look.values[SLI_SVG_DISPLAY], "none") || at->paint.hidden;
-    const sl_status status = sli_svg_move(s, node, &look, &own, &seen);
-    sli_svg_look_free(&look);
-    if (status != SL_OK || !seen || hidden) return;
-    const sli_affine *affine = &own.affine;
-    const double area = width * height * fabs(affine->xx * affine->yy - affine->xy * affine->yx);
-    if (!(area > s->picture)) return;
-    s->picture = area;
-    s->picture_line = sli_xml_line(node);
-}
-
-sl_status sli_svg_check_picture(const svg *s) {
-    if (s->shapes || !s->picture_line) return SL_OK;
-    return sl_fail_at(s->context, s->pen.name, s->picture_line,
-                      "the drawing has a picture and no walls: if the plan is in it, save it as a "
-                      "PNG file, and read that");
-}
-
-/// The first picture that a pattern holds or uses; NULL for none.
-static const xmlNode *pattern_picture(const svg *s, const xmlNode *node, bool within) {
-    for (; node; node = node->next) {
-        if (node->type != XML_ELEMENT_NODE) continue;
-        const bool inner = within || sli_xml_is(node, "pattern");
-        if (inner && sli_xml_is(node, "image")) return node;
-        if (inner && sli_xml_is(node, "use")) {
-            char *link = sli_xml_attribute(node, "href");
-            const xmlNode *used = link && *link == '#' ? sli_svg_find(&s->ids, link + 1) : NULL;
-            sli_xml_free(link);
-            if (used && sli_xml_is(used, "image")) return used;
-        }
-        const xmlNode *found = pattern_picture(s, node->children, inner);
-        if (found) return found;
-    }
-    return NULL;
-}
-
-void sli_svg_note_picture(const svg *s) {
-    const sl_box box = s->pen.map->wall_count ? sl_map_bounds(s->pen.map) : s->pen.map->source.page;
-    const double area = (box.max.x - box.min.x) * (box.max.y - box.min.y);
-    const xmlNode *filled = pattern_picture(s, xmlDocGetRootElement(s->document), false);
-    if (filled && !(s->picture > 0))
-        sl_note(s->context,
-                "%s:%u: a picture fills shapes as a pattern, and is not read: if the plan is in "
-                "it, save it as a PNG file, and read that",
-                s->pen.name, (unsigned)sli_xml_line(filled));
-    if (!(s->picture > 0) || s->picture * 4 < area) return;
-    sl_note(
-        s->context,
-        "%s:%u: a picture is as large as %.0f %% of the drawing, and is not read: if the plan is "
-        "in it, save it as a PNG file, and read that",
-        s->pen.name, (unsigned)s->picture_line, area > 0 ? 100 * s->picture / area : 100);
 }

@@ -8,8 +8,8 @@
 /// are sorted by one part that an element must have, so that an element is held against few of
 /// them.
 ///
-/// A shape is seen if it is not hidden, nothing about it has an opacity of 0, and its inside or its
-/// line is painted. By default the inside is (fill:black) and the line is not (stroke:none).
+/// A shape is seen if it is not hidden, nothing about it is clear, and its inside or its line is
+/// painted. By default the inside is (fill:black) and the line is not (stroke:none).
 #include "io/svg/svg_style.h"
 
 #include "base/base.h"
@@ -18,6 +18,9 @@
 #include "io/svg/svg_colour.h"
 
 #include <stdlib.h>
+
+/// Up to this opacity nothing is seen.
+#define LEAST_OPACITY 0.03
 
 static const char blanks[] = " \t\r\n\f";
 
@@ -429,6 +432,11 @@ static double opacity_of(sli_word value) {
     return number < 0 ? 0 : number > 1 ? 1 : number;
 }
 
+/// Whether an opacity is so low that nothing is seen: areas that are to be clicked have such.
+static bool is_clear(sli_word value) {
+    return opacity_of(value) <= LEAST_OPACITY;
+}
+
 /// The colours of an element's paint, and how opaque they are.
 static void read_colours(sli_svg_paint *paint, const sli_word *values) {
     double own;
@@ -455,7 +463,7 @@ static bool is_no_paint(sli_word value) {
     if (value.length < 6 || memcmp(value.at, "rgba(", 5) != 0) return false;
     const char *end = value.at + value.length, *last = end;
     while (last > value.at && !strchr(",/", last[-1])) last--;
-    return is_zero(trimmed(last, end));
+    return is_clear(trimmed(last, end));
 }
 
 sli_svg_paint sli_svg_paint_in(sli_svg_paint outer, const sli_svg_look *look) {
@@ -464,13 +472,13 @@ sli_svg_paint sli_svg_paint_in(sli_svg_paint outer, const sli_svg_look *look) {
     if (is_said(values[SLI_SVG_VISIBILITY]))
         paint.hidden = sli_word_is(values[SLI_SVG_VISIBILITY], "hidden") ||
                        sli_word_is(values[SLI_SVG_VISIBILITY], "collapse");
-    if (is_said(values[SLI_SVG_OPACITY])) paint.clear |= is_zero(values[SLI_SVG_OPACITY]);
+    if (is_said(values[SLI_SVG_OPACITY])) paint.clear |= is_clear(values[SLI_SVG_OPACITY]);
     if (is_said(values[SLI_SVG_FILL])) paint.no_fill = is_no_paint(values[SLI_SVG_FILL]);
     if (is_said(values[SLI_SVG_STROKE])) paint.stroke = !is_no_paint(values[SLI_SVG_STROKE]);
     if (is_said(values[SLI_SVG_FILL_OPACITY]))
-        paint.clear_fill = is_zero(values[SLI_SVG_FILL_OPACITY]);
+        paint.clear_fill = is_clear(values[SLI_SVG_FILL_OPACITY]);
     if (is_said(values[SLI_SVG_STROKE_OPACITY]))
-        paint.clear_stroke = is_zero(values[SLI_SVG_STROKE_OPACITY]);
+        paint.clear_stroke = is_clear(values[SLI_SVG_STROKE_OPACITY]);
     if (is_said(values[SLI_SVG_STROKE_WIDTH])) {
         const sli_word width = values[SLI_SVG_STROKE_WIDTH];
         const size_t length = sli_number_length(width.at, width.length);

@@ -3,6 +3,7 @@
 /// array, in comma-separated text, or in base64, which may be packed by zlib, gzip or zstd.
 #include "io/tiled/tiled.h"
 
+#include "io/parts/base64.h"
 #include "io/parts/document.h"
 #include "map/scan.h"
 
@@ -257,34 +258,12 @@ static sl_status read_csv(const sli_json *data, const char *text, size_t count, 
     return sli_json_fail(data, "%zu tiles, the layer has %zu", found, count);
 }
 
-/// The six bits of a character of base64 (RFC 4648), or -1.
-static int six_bits(char c) {
-    if (c >= 'A' && c <= 'Z') return c - 'A';
-    if (c >= 'a' && c <= 'z') return c - 'a' + 26;
-    if (c >= '0' && c <= '9') return c - '0' + 52;
-    return c == '+' ? 62 : c == '/' ? 63 : -1;
-}
-
-/// `out->at` has room for all; blanks between the characters are passed over.
+/// `out->at` has room for all.
 static sl_status decode_base64(const sli_json *data, const char *text, bytes *out) {
-    uint32_t bits = 0, pads = 0;
-    size_t characters = 0;
-    for (const char *at = text; *at; at++) {
-        if (is_blank(*at)) continue;
-        const int value = six_bits(*at);
-        pads += *at == '=';
-        if ((value < 0 && *at != '=') || (value >= 0 && pads))
-            return sli_json_fail(data, "character %zu is not base64", (size_t)(at - text) + 1);
-        bits = bits << 6 | (value < 0 ? 0u : (uint32_t)value);
-        if (++characters % 4) continue;
-        for (int shift = 16; shift >= 0; shift -= 8)
-            out->at[out->size++] = (unsigned char)(bits >> shift);
-        bits = 0;
-    }
-    if (characters % 4 || pads > 2 || (pads && !out->size))
-        return sli_json_fail(data, "the base64 text is cut off");
-    out->size -= pads;
-    return SL_OK;
+    size_t wrong;
+    if (sli_base64_decode(text, out->at, &out->size, &wrong)) return SL_OK;
+    if (wrong) return sli_json_fail(data, "character %zu is not base64", wrong);
+    return sli_json_fail(data, "the base64 text is cut off");
 }
 
 static sl_status fail_size(const sli_json *data, size_t count) {
