@@ -359,6 +359,7 @@ void sli_choice_note_long_doors(const sli_choice *c) {
 void sli_choice_note(const sli_choice *c) {
     note_choice(c);
     sli_choice_note_both(c);
+    sli_choice_note_left_out(c);
     if (c->outlined)
         sl_note(c->contents->context,
                 "%s: layers named for walls have few lines, so layers of rooms give walls, too: "
