@@ -40,7 +40,8 @@ static void assert_dxf(const char *entities, const char *layers, const char *exp
 static void test_glass(void **state) {
     (void)state;
     assert_dxf(ROOM(ON_WALLS) PANES("0"), NULL, ROOM(WALL) GLASS,
-               "thin lines side by side close 1 gap of outer walls: windows");
+               "lines side by side close 1 gap of outer walls: windows, which are seen through; "
+               "--layers '0=ignore' leaves them out");
     assert_dxf(ROOM(ON_WALLS) PANES("0"), "0=ignore", ROOM(WALL), "passed over: 0");
     // A little too short, or into the walls.
     assert_dxf(ROOM(ON_WALLS) LINE("0", 129, 0, 191, 0) LINE("0", 124, 4, 196, 4), NULL,

@@ -66,6 +66,8 @@ void sli_choice_take_both(const sli_choice *c);
 /// Notes these layers, and what they are taken for.
 void sli_choice_note_both(const sli_choice *c);
 
+/// How light what shapes with looks lie on is: sli_looks_ground().
+sl_status sli_choice_find_ground(sli_choice *c, double *ground);
 /// Finds the openings that lie over walls: bars, doors of layers and swings (contents_doors.c).
 /// Bars that cut are no walls themselves. Where doors are drawn as doors, other bars are windows.
 sl_status sli_choice_find_openings(sli_choice *c);
@@ -80,6 +82,9 @@ sl_status sli_choice_find_left_out(sli_choice *c);
 /// Notes these.
 void sli_choice_note_left_out(const sli_choice *c);
 
+/// Adds a name to a list as --layers takes it, with a role, or "". False where it does not fit, or
+/// is not to be typed.
+bool sli_choice_add_name(sli_word name, const char *role, char *text, size_t size);
 /// Notes lines on layers of doors that are far longer than doors.
 void sli_choice_note_long_doors(const sli_choice *c);
 /// Notes the layers of a drawing all of which are walls, where there are several.

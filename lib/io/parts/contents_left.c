@@ -35,12 +35,15 @@ static sli_word name_of_kind(const sli_choice *c, uint32_t kind) {
 }
 
 /// The kind of the walls of a run that may be windows or walls; 0 for none. Lines at entrances are
-/// neither, nor are the edges of what is filled.
-static uint32_t kind_of(const sli_choice *c, const sli_group_run *run) {
+/// neither, nor are the edges of what covers up other shapes, in the colour of the ground.
+static uint32_t kind_of(const sli_choice *c, const sli_group_run *run, double ground) {
     const sli_group *group = &c->contents->groups.items[run->group];
     const uint32_t kind = 1 + (c->by_looks ? run->look : run->group);
     sli_meaning role;
     if (group->means != SLI_MEANS_NOTHING || group->said) return 0;
+    const sli_ink *ink =
+        c->contents->has_looks ? &c->contents->looks.items.items[run->look].ink : NULL;
+    if (ink && !ink->line && sli_ink_is_ground(ink, ground)) return 0;
     if (sli_meaning_is_way_in((sli_word){group->name, group->length})) return 0;
     return sli_roles_find(c->contents->roles, name_of_kind(c, kind), &role) ? 0 : kind;
 }
@@ -49,13 +52,13 @@ static void add_door(drawn *d, sl_point a, sl_point b) {
     d->doors[d->door_count++] = (sl_segment){a, b};
 }
 
-static void fill(const sli_choice *c, drawn *d) {
+static void fill(const sli_choice *c, double ground, drawn *d) {
     const sli_contents *contents = c->contents;
     for (size_t i = 0; i < contents->runs.count; i++) {
         const sli_group_run *run = &contents->runs.items[i];
         const sli_ink *ink =
             contents->has_looks ? &contents->looks.items.items[run->look].ink : NULL;
-        const uint32_t kind = kind_of(c, run);
+        const uint32_t kind = kind_of(c, run, ground);
         for (size_t k = run->first; k < run->end; k++) {
             if (ink && ink->line) d->pens[k] = ink->width / 2;
             if (sli_choice_gone(c, k)) continue;
@@ -88,6 +91,7 @@ static void take_glass(sli_choice *c, const sli_left_out *left) {
             if (!sl_bits_has(left->glass, k)) continue;
             c->means[k] = SLI_MEANS_WINDOW;
             c->contents->groups.items[run->group].glazed = true;
+            if (c->by_looks) c->contents->looks.items.items[run->look].glazed = true;
             c->kept++;
             c->shown += c->map->walls[k].line != line;
             line = c->map->walls[k].line;
@@ -197,9 +201,11 @@ sl_status sli_choice_find_left_out(sli_choice *c) {
                .kinds = sl_alloc_array(context, count, sizeof *d.kinds),
                .pens = sl_alloc_array(context, count, sizeof *d.pens),
                .doors = sl_alloc_array(context, doors, sizeof *d.doors)};
-    sl_status status = SL_NO_MEMORY;
-    if (d.walls && d.kinds && d.pens && d.doors) {
-        fill(c, &d);
+    double ground = 1;
+    sl_status status = d.walls && d.kinds && d.pens && d.doors ? SL_OK : SL_NO_MEMORY;
+    if (status == SL_OK && c->contents->has_looks) status = sli_choice_find_ground(c, &ground);
+    if (status == SL_OK) {
+        fill(c, ground, &d);
         status = look(c, &d);
     }
     sl_free(context, d.walls);
@@ -211,28 +217,44 @@ sl_status sli_choice_find_left_out(sli_choice *c) {
 
 // --- what is said
 
+/// The glass, and what leaves it out.
+static void note_glass(const sli_choice *c) {
+    const size_t kinds = c->by_looks ? c->contents->looks.items.count : c->contents->groups.count;
+    char names[300] = "";
+    bool all = true;
+    if (!c->gaps) return;
+    for (uint32_t kind = 1; kind <= kinds; kind++) {
+        const bool glazed = c->by_looks ? c->contents->looks.items.items[kind - 1].glazed
+                                        : c->contents->groups.items[kind - 1].glazed;
+        if (glazed)
+            all &= sli_choice_add_name(name_of_kind(c, kind), "=ignore", names, sizeof names);
+    }
+    sl_note(c->contents->context,
+            "%s: lines side by side close %zu gap%s of outer walls: windows, which are seen "
+            "through; --layers '%s' leaves them out",
+            c->contents->file, c->gaps, c->gaps == 1 ? "" : "s", all ? names : "NAME=ignore");
+}
+
 void sli_choice_note_left_out(const sli_choice *c) {
     sl_context *context = c->contents->context;
     const char *file = c->contents->file;
-    if (c->gaps)
-        sl_note(context,
-                "%s: thin lines side by side close %zu gap%s of outer walls: windows, which are "
-                "seen through (--layers NAME=ignore leaves a layer or look out)",
-                file, c->gaps, c->gaps == 1 ? "" : "s");
+    note_glass(c);
     for (size_t i = 0; i < c->left.count; i++) {
         const sli_left_kind *kind = &c->left.items[i];
-        const sli_word word = name_of_kind(c, kind->kind);
-        const bool plain = word.length <= 80 && !strpbrk(word.at, "',");
-        const char *name = plain ? word.at : "NAME";
+        const sli_word name = name_of_kind(c, kind->kind);
+        const char *role = kind->taken ? "=ignore" : "=wall";
+        char typed[200] = "";
+        if (!sli_choice_add_name(name, role, typed, sizeof typed))
+            snprintf(typed, sizeof typed, "NAME%s", role);
         if (kind->taken)
             sl_note(context,
                     "%s: %.80s: %zu lines part rooms, and with them it is plain what is inside: "
-                    "taken as walls; --layers '%s=ignore' leaves them out",
-                    file, word.at, kind->lines, name);
+                    "taken as walls; --layers '%s' leaves them out",
+                    file, sli_show(name).text, kind->lines, typed);
         else
             sl_note(context,
                     "%s: %.80s: passed over, but %zu of its lines stand as walls do: if they are "
-                    "walls: --layers '%s=wall'",
-                    file, word.at, kind->lines, name);
+                    "walls: --layers '%s'",
+                    file, sli_show(name).text, kind->lines, typed);
     }
 }
