@@ -20,8 +20,8 @@ static const double THICK = 0.7, LEAST = 0.25, MOST = 8;
 static const double THICK_SHARE = 1.0 / 25, LEAST_SHARE = 1.0 / 100, MOST_SHARE = 1.0 / 3;
 /// How far a pane may end before its jamb, and behind it, as shares of its length.
 static const double SHORT = 0.02, BEYOND = 0.15;
-/// How far lines may be from being parallel or upright to each other: sines.
-static const double TURN = 0.05;
+/// How much of the longer one of two lines is beside the other in one gap.
+static const double SIDE = 0.8;
 
 // --- the search
 
@@ -57,7 +57,8 @@ void sli_left_out_destroy(sli_left_out *left) {
 
 /// A line from jamb to jamb.
 typedef struct pane {
-    uint32_t line, jambs[2]; ///< the lesser jamb first
+    uint32_t gap; ///< the first line of its gap
+    uint32_t line, jambs[2];
 } pane;
 
 /// An end of a line, with the direction that it goes there.
@@ -79,7 +80,7 @@ static bool is_across(const sli_left_out *left, const sl_wall *wall, const line_
     const sl_point b = {wall->b.x - e->at.x, wall->b.y - e->at.y};
     const double s = sli_cross(e->along, a), t = sli_cross(e->along, b);
     const double ahead = (sli_dot(e->along, a) + sli_dot(e->along, b)) / 2;
-    return fabs(sli_dot(direction(wall->a, wall->b), e->along)) <= TURN &&
+    return fabs(sli_dot(direction(wall->a, wall->b), e->along)) <= SLI_LEFT_OUT_TURN &&
            sli_wall_length(wall) <= sli_left_out_scaled(left, THICK, THICK_SHARE) &&
            fmin(s, t) <= left->off && fmax(s, t) >= -left->off && ahead <= e->slack &&
            ahead >= -e->beyond;
@@ -94,8 +95,9 @@ static bool is_in_line(const sli_left_out *left, uint32_t number, const line_end
                       sli_length(wall->a.x - end.x, wall->a.y - end.y);
     const sl_point from = back ? wall->b : wall->a, to = back ? wall->a : wall->b;
     const sl_point w = direction(from, to), away = {from.x - end.x, from.y - end.y};
-    return left->pens[number] > 0 && sli_dot(w, u) > 0 && fabs(sli_cross(w, u)) <= TURN &&
-           fabs(sli_dot(away, u)) <= off && fabs(sli_cross(away, u)) <= off;
+    return left->pens[number] > 0 && sli_dot(w, u) > 0 &&
+           fabs(sli_cross(w, u)) <= SLI_LEFT_OUT_TURN && fabs(sli_dot(away, u)) <= off &&
+           fabs(sli_cross(away, u)) <= off;
 }
 
 /// The jamb where a line ends.
@@ -130,16 +132,40 @@ static sl_status find_panes(sli_left_out *left, pane *panes, size_t *count) {
         end.along = (sl_point){-u.x, -u.y};
         SL_TRY(find_jamb(left, &end, &a));
         if (a == UINT32_MAX || a == b) continue;
-        panes[(*count)++] = (pane){i, {a < b ? a : b, a < b ? b : a}};
+        panes[(*count)++] = (pane){i, i, {a, b}};
     }
     return SL_OK;
 }
 
 static int compare_panes(const void *left, const void *right) {
     const pane *a = left, *b = right;
-    for (int i = 0; i < 2; i++)
-        if (a->jambs[i] != b->jambs[i]) return a->jambs[i] < b->jambs[i] ? -1 : 1;
+    if (a->gap != b->gap) return a->gap < b->gap ? -1 : 1;
     return (a->line > b->line) - (a->line < b->line);
+}
+
+/// Puts lines side by side into one gap: `gaps` are disjoint sets of lines.
+static sl_status join_panes(sli_left_out *left, pane *panes, size_t count, uint32_t *gaps) {
+    const double thick = sli_left_out_scaled(left, THICK, THICK_SHARE);
+    for (uint32_t i = 0; i < (uint32_t)left->map->wall_count; i++) gaps[i] = UINT32_MAX;
+    for (size_t i = 0; i < count; i++) gaps[panes[i].line] = panes[i].line;
+    for (size_t i = 0; i < count; i++) {
+        const uint32_t line = panes[i].line;
+        const sl_wall *wall = &left->map->walls[line];
+        SL_TRY(sli_walls_near(left->context, &left->index, (sl_segment){wall->a, wall->b}, thick));
+        for (size_t k = 0; k < left->index.near.count; k++) {
+            const uint32_t j = left->index.near.items[k];
+            const sl_wall *other = &left->map->walls[j];
+            double away = 0;
+            if (gaps[j] == UINT32_MAX ||
+                sli_left_out_along(wall, other, &away) <
+                    SIDE * fmax(sli_wall_length(wall), sli_wall_length(other)))
+                continue;
+            const uint32_t a = sl_root_of(gaps, line), b = sl_root_of(gaps, j);
+            if (fabs(away) <= thick) gaps[a > b ? a : b] = a > b ? b : a;
+        }
+    }
+    for (size_t i = 0; i < count; i++) panes[i].gap = sl_root_of(gaps, panes[i].line);
+    return SL_OK;
 }
 
 // --- gaps
@@ -193,7 +219,8 @@ static sl_status may_be_glass(sli_left_out *left, const pane *panes, size_t coun
     const sl_wall *line = &left->map->walls[panes[0].line];
     const size_t apart = count_apart(left, panes, count);
     bool body = apart > 2 || left->thin;
-    for (int i = 0; i < 2; i++) SL_TRY(find_body(left, panes[0].jambs[i], line, &body));
+    for (size_t i = 0; i < 2 * count && !body; i++)
+        SL_TRY(find_body(left, panes[i / 2].jambs[i % 2], line, &body));
     *may = apart >= 2 && body;
     return SL_OK;
 }
@@ -241,15 +268,14 @@ static bool has_door(const sli_left_out *left, const sl_wall *line) {
 sl_status sli_left_out_glass(sli_left_out *left) {
     const size_t lines = left->map->wall_count;
     pane *panes = sl_alloc_array(left->context, lines, sizeof *panes);
+    uint32_t *gaps = sl_alloc_array(left->context, lines, sizeof *gaps);
     size_t count = 0, views = 0;
-    sl_status status = panes ? find_panes(left, panes, &count) : SL_NO_MEMORY;
+    sl_status status = panes && gaps ? find_panes(left, panes, &count) : SL_NO_MEMORY;
+    if (status == SL_OK) status = join_panes(left, panes, count, gaps);
     if (status == SL_OK && count) qsort(panes, count, sizeof *panes, compare_panes);
     for (size_t i = 0, end; status == SL_OK && i < count; i = end) {
         const sl_wall *line = &left->map->walls[panes[i].line];
-        for (end = i + 1; end < count; end++)
-            if (panes[end].jambs[0] != panes[i].jambs[0] ||
-                panes[end].jambs[1] != panes[i].jambs[1])
-                break;
+        for (end = i + 1; end < count && panes[end].gap == panes[i].gap;) end++;
         bool may;
         status = may_be_glass(left, panes + i, end - i, &may);
         if (status != SL_OK || !may || has_door(left, line)) continue;
@@ -262,5 +288,6 @@ sl_status sli_left_out_glass(sli_left_out *left) {
     for (size_t i = 0; status == SL_OK && i < lines; i++)
         if (sl_bits_has(left->glass, i)) sl_bits_add(left->walls, i);
     sl_free(left->context, panes);
+    sl_free(left->context, gaps);
     return status;
 }

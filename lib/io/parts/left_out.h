@@ -58,4 +58,20 @@ static inline double sli_wall_length(const sl_wall *wall) {
     return sli_length(wall->b.x - wall->a.x, wall->b.y - wall->a.y);
 }
 
+/// How far lines may be from being parallel or upright to each other: a sine.
+#define SLI_LEFT_OUT_TURN 0.05
+
+/// How far a line runs along another one that is parallel, and how far that is at its left.
+static inline double sli_left_out_along(const sl_wall *line, const sl_wall *other, double *left) {
+    const sl_point u = {line->b.x - line->a.x, line->b.y - line->a.y};
+    const sl_point v = {other->b.x - other->a.x, other->b.y - other->a.y};
+    const double a = sli_wall_length(line), b = sli_wall_length(other);
+    if (!(b > 0) || fabs(sli_cross(u, v)) > SLI_LEFT_OUT_TURN * a * b) return 0;
+    const sl_point from = {other->a.x - line->a.x, other->a.y - line->a.y};
+    const sl_point to = {other->b.x - line->a.x, other->b.y - line->a.y};
+    const double s = sli_dot(u, from) / a, t = sli_dot(u, to) / a;
+    *left = (sli_cross(u, from) + sli_cross(u, to)) / (2 * a);
+    return fmax(0, fmin(a, fmax(s, t)) - fmax(0, fmin(s, t)));
+}
+
 #endif

@@ -25,8 +25,6 @@ static const double FACES = 0.4, FACES_SHARE = 1.0 / 60;
 static const double SLENDER = 3;
 /// How much of a kind parts rooms: lengths as shares of the drawing's, and of all of the kind.
 static const double LEAST = 0.3, CHAINS = 0.4, PAIRS = 0.5;
-/// How far lines may be from parallel.
-static const double TURN = 0.05;
 /// How much distances differ that are the same.
 static const double SAME = 0.05;
 enum {
@@ -72,26 +70,13 @@ static double length_of(const finder *f, uint32_t number) {
     return sli_wall_length(wall_of(f, number));
 }
 
-/// How far a line runs along another one that is parallel, and how far that is at its left.
-static double along(const sl_wall *line, const sl_wall *other, double *left) {
-    const sl_point u = {line->b.x - line->a.x, line->b.y - line->a.y};
-    const sl_point v = {other->b.x - other->a.x, other->b.y - other->a.y};
-    const double a = sli_wall_length(line), b = sli_wall_length(other);
-    if (!(b > 0) || fabs(sli_cross(u, v)) > TURN * a * b) return 0;
-    const sl_point from = {other->a.x - line->a.x, other->a.y - line->a.y};
-    const sl_point to = {other->b.x - line->a.x, other->b.y - line->a.y};
-    const double s = sli_dot(u, from) / a, t = sli_dot(u, to) / a;
-    *left = (sli_cross(u, from) + sli_cross(u, to)) / (2 * a);
-    return fmax(0, fmin(a, fmax(s, t)) - fmax(0, fmin(s, t)));
-}
-
 /// Whether lines cross each other, farther from all ends than `off`.
 static bool is_crossing(const sl_wall *p, const sl_wall *q, double off) {
     const sl_point u = {p->b.x - p->a.x, p->b.y - p->a.y};
     const sl_point v = {q->b.x - q->a.x, q->b.y - q->a.y};
     const sl_point from = {q->a.x - p->a.x, q->a.y - p->a.y};
     const double across = sli_cross(u, v), a = sli_wall_length(p), b = sli_wall_length(q);
-    if (!(fabs(across) > TURN * a * b)) return false;
+    if (!(fabs(across) > SLI_LEFT_OUT_TURN * a * b)) return false;
     const double s = sli_cross(from, v) / across * a, t = sli_cross(from, u) / across * b;
     return s > off && s < a - off && t > off && t < b - off;
 }
@@ -122,7 +107,7 @@ static sl_status look_beside(finder *f, uint32_t i) {
         if (j == i || (!wall && left->kinds[j] != left->kinds[i])) continue;
         // One wall crossed is enough, and two lines of the kind.
         if (is_crossing(line, wall_of(f, j), left->off + left->pens[j])) crossed += wall ? 2 : 1;
-        const double both = along(line, wall_of(f, j), &at);
+        const double both = sli_left_out_along(line, wall_of(f, j), &at);
         if (!(both > 0) || fabs(at) > beside) continue;
         if (wall)
             covered += both;
@@ -152,7 +137,8 @@ static sl_status is_in_row(finder *f, uint32_t i, bool *in) {
         const double *next = f->lines[j].next;
         double away = 0;
         if (left->kinds[j] != left->kinds[i] || !is_same(next[0], next[1])) continue;
-        *in = along(wall_of(f, i), wall_of(f, j), &away) > 0 && is_same(next[0], fabs(away));
+        *in = sli_left_out_along(wall_of(f, i), wall_of(f, j), &away) > 0 &&
+              is_same(next[0], fabs(away));
     }
     return SL_OK;
 }
