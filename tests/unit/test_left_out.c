@@ -55,6 +55,9 @@ static void test_glass(void **state) {
     assert_dxf(ROOM(ON_WALLS) PANES("0") LINE("A-DOOR", 128, 0, 128, 64)
                    ARC("A-DOOR", 128, 0, 64, 0, 90),
                NULL, ROOM(WALL), "passed over: 0");
+    // A niche: the other face of the wall goes on.
+    assert_dxf(ROOM(ON_WALLS) LINE("A-WALL", 128, 8, 192, 8) PANES("0"), NULL,
+               ROOM(WALL) WALL(128, 8, 192, 8), "passed over: 0");
     // A wall in front: the gap leads to another room.
     assert_dxf(ROOM(ON_WALLS) PANES("0") LINE("A-WALL", 0, -128, 320, -128), NULL,
                ROOM(WALL) WALL(0, -128, 320, -128), "passed over: 0");

@@ -4,9 +4,10 @@
 ///     the
 ///            |===============|              short end of a wall's outline, or the end of a wall
 ///            that
-///            |===============|              is drawn by one thick line. The gap has a free view on
-///     -------+               +-------       one side, and a wall on the other: doors and lintels
-///                                           between rooms have walls on both.
+///            |===============|              is drawn by one thick line. No wall closes the gap. It
+///            has a
+///     -------+               +-------       free view on one side, and a wall on the other: doors
+///                                           and lintels between rooms have walls on both.
 ///
 /// All such lines are glass.
 #include "io/parts/left_out.h"
@@ -213,15 +214,40 @@ static sl_status find_body(sli_left_out *left, uint32_t jamb, const sl_wall *lin
     return SL_OK;
 }
 
+/// Whether a wall runs along a line of a gap, as near as the gap is deep: then it is no gap.
+static sl_status find_wall_along(sli_left_out *left, const pane *p, bool *has) {
+    const sl_wall *line = &left->map->walls[p->line];
+    double deep = left->off, along = 0;
+    for (int i = 0; i < 2; i++) {
+        const sl_wall *jamb = &left->map->walls[p->jambs[i]];
+        const double in_line =
+            fabs(sli_dot(direction(jamb->a, jamb->b), direction(line->a, line->b)));
+        deep = fmax(deep, in_line > 0.5 ? 2 * left->pens[p->jambs[i]] : sli_wall_length(jamb));
+    }
+    SL_TRY(sli_walls_near(left->context, &left->index, (sl_segment){line->a, line->b}, deep));
+    for (size_t k = 0; k < left->index.near.count; k++) {
+        const uint32_t i = left->index.near.items[k];
+        double away = 0;
+        if (!sl_bits_has(left->walls, i)) continue;
+        const double both = sli_left_out_along(line, &left->map->walls[i], &away);
+        if (fabs(away) <= deep) along += both;
+    }
+    *has |= 2 * along > sli_wall_length(line);
+    return SL_OK;
+}
+
 /// Whether the lines of a gap are glass by what they are and where they end: between columns, two
 /// lines may be the faces of a wall.
 static sl_status may_be_glass(sli_left_out *left, const pane *panes, size_t count, bool *may) {
     const sl_wall *line = &left->map->walls[panes[0].line];
     const size_t apart = count_apart(left, panes, count);
-    bool body = apart > 2 || left->thin;
+    bool body = apart > 2 || left->thin, closed = false;
+    *may = false;
+    if (apart < 2) return SL_OK;
     for (size_t i = 0; i < 2 * count && !body; i++)
         SL_TRY(find_body(left, panes[i / 2].jambs[i % 2], line, &body));
-    *may = apart >= 2 && body;
+    for (size_t i = 0; i < count && !closed; i++) SL_TRY(find_wall_along(left, &panes[i], &closed));
+    *may = body && !closed;
     return SL_OK;
 }
 
