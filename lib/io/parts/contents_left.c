@@ -12,7 +12,7 @@
 
 #include <math.h>
 
-/// With more walls it is not tried what is inside. So many layers and looks are told of.
+/// With more walls it is not tried what is inside.
 enum { MOST_TRIED = 20000 };
 
 // --- what is looked at
@@ -34,18 +34,26 @@ static sli_word name_of_kind(const sli_choice *c, uint32_t kind) {
     return (sli_word){look, strlen(look)};
 }
 
+/// Whether the user says what the layer or the look of a run is.
+static bool is_said(const sli_choice *c, const sli_group_run *run) {
+    const sli_contents *contents = c->contents;
+    sli_meaning role;
+    if (contents->groups.items[run->group].said || !contents->has_looks)
+        return contents->groups.items[run->group].said;
+    const char *look = contents->looks.items.items[run->look].name;
+    return sli_roles_find(contents->roles, (sli_word){look, strlen(look)}, &role);
+}
+
 /// The kind of the walls of a run that may be windows or walls; 0 for none. Lines at entrances are
 /// neither, nor are the edges of what covers up other shapes, in the colour of the ground.
 static uint32_t kind_of(const sli_choice *c, const sli_group_run *run, double ground) {
     const sli_group *group = &c->contents->groups.items[run->group];
-    const uint32_t kind = 1 + (c->by_looks ? run->look : run->group);
-    sli_meaning role;
-    if (group->means != SLI_MEANS_NOTHING || group->said) return 0;
+    if (group->means != SLI_MEANS_NOTHING || is_said(c, run)) return 0;
     const sli_ink *ink =
         c->contents->has_looks ? &c->contents->looks.items.items[run->look].ink : NULL;
     if (ink && !ink->line && sli_ink_is_ground(ink, ground)) return 0;
     if (sli_meaning_is_way_in((sli_word){group->name, group->length})) return 0;
-    return sli_roles_find(c->contents->roles, name_of_kind(c, kind), &role) ? 0 : kind;
+    return 1 + (c->by_looks ? run->look : run->group);
 }
 
 static void add_door(drawn *d, sl_point a, sl_point b) {

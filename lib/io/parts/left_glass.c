@@ -1,15 +1,14 @@
 /// Windows as thin lines in the gaps of outer walls:
 ///
-///     -------+               +-------       Two lines or more lead from jamb to jamb. A jamb is
-///     the
-///            |===============|              short end of a wall's outline, or the end of a wall
-///            that
-///            |===============|              is drawn by one thick line. No wall closes the gap. It
-///            has a
-///     -------+               +-------       free view on one side, and a wall on the other: doors
-///                                           and lintels between rooms have walls on both.
+///     -------+               +-------
+///            |===============|
+///            |===============|
+///     -------+               +-------
 ///
-/// All such lines are glass.
+/// Two lines or more lead from jamb to jamb. A jamb is the short end of a wall's outline, or the
+/// end of a wall that is drawn by one thick line. No wall closes the gap. It has a free view on one
+/// side, and a wall on the other: doors and lintels between rooms have walls on both. All such
+/// lines are glass.
 #include "io/parts/left_out.h"
 
 #include <stdlib.h>

@@ -1,14 +1,17 @@
-/// Which lines of a layer or a look part rooms, and whether most of it does.
+/// Which lines of a layer or a look part rooms, and whether much of it does.
 ///
 ///     +--------------------+
-///     |        |     ||    |     First goes what runs along walls (plaster, counters, wardrobes),
-///     |        |     |+--  |     what crosses them (axes, wires, dimensions), and rows of lines
-///     |  ---+  |     +---  |     (steps, tiles). Then there are two ways to be walls:
+///     |        |     ||    |
+///     |        |     |+--  |
+///     |  ---+  |     +---  |
 ///     |     |  |           |
 ///     +--------------------+
 ///
-/// 1. Chains of lines lead from wall to wall. They are what is left if lines with a free end are
-///    taken away, again and again. This finds plans without doors.
+/// First goes what runs along walls (plaster, counters, wardrobes), and what crosses them (axes,
+/// wires, dimensions). Then there are two ways to be walls:
+///
+/// 1. Chains of lines lead from wall to wall. They are what is left if rows of lines (steps, tiles)
+///    are taken away, and lines with a free end, again and again. This finds plans without doors.
 /// 2. Lines stand side by side, far longer than they are apart, and most at one distance, as the
 ///    faces of walls do. The ends of some walls that are taken stand at them.
 ///
