@@ -8,6 +8,13 @@
 #include "io/parts/plan_parts.h"
 #include "io/parts/symbols.h"
 
+/// A layer or a look that is left out, though its lines stand as walls do.
+typedef struct sli_left_kind {
+    uint32_t kind; ///< of the looks, or of the groups: the number behind its own
+    size_t lines;
+    bool taken; ///< as walls, after all
+} sli_left_kind;
+
 typedef struct sli_choice {
     sli_contents *contents;
     sl_map *map;
@@ -24,6 +31,9 @@ typedef struct sli_choice {
     double share;     ///< of walls by their looks in all long lines
     size_t words;     ///< shapes that look like walls, but are lettering or the page
     size_t doors;     ///< made
+    size_t gaps;      ///< of outer walls that are windows by what is drawn there
+    size_t shown;     ///< shapes that windows in gaps and walls are made of, though left out before
+    SL_ARRAY(sli_left_kind) left;
     sli_openings openings;
     size_t first_door;   ///< of the openings: those before it are bars
     size_t cuts, glazed; ///< openings that cut walls: doors, and windows
@@ -62,6 +72,8 @@ sl_status sli_choice_find_parts(sli_choice *c);
 /// Takes small pieces out of the walls, as --layers large asks; says so.
 sl_status sli_choice_keep_large(const sli_choice *c, sli_pen *pen);
 
+/// How light what shapes with looks lie on is: sli_looks_ground().
+sl_status sli_choice_find_ground(sli_choice *c, double *ground);
 /// Finds the openings that lie over walls: bars, doors of layers and swings (contents_doors.c).
 /// Bars that cut are no walls themselves. Where doors are drawn as doors, other bars are windows.
 sl_status sli_choice_find_openings(sli_choice *c);
@@ -71,6 +83,14 @@ sl_status sli_choice_join_plans(const sli_choice *c);
 /// Adds the doors to the map, with the option doors.
 sl_status sli_choice_add_doors(sli_choice *c);
 
+/// Looks among what is left out for windows and walls, once the choice is made (contents_left.c).
+sl_status sli_choice_find_left_out(sli_choice *c);
+/// Notes these.
+void sli_choice_note_left_out(const sli_choice *c);
+
+/// Adds a name to a list as --layers takes it, with a role, or "". False where it does not fit, or
+/// is not to be typed.
+bool sli_choice_add_name(sli_word name, const char *role, char *text, size_t size);
 /// Notes lines on layers of doors that are far longer than doors.
 void sli_choice_note_long_doors(const sli_choice *c);
 /// Notes the layers of a drawing all of which are walls, where there are several.

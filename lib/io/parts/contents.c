@@ -416,8 +416,10 @@ sl_status sli_contents_list(sli_contents *contents, sl_map *map, double metre,
                             sl_drawing_layers *out) {
     sli_choice c = {.contents = contents, .map = map, .metre = metre};
     sl_status status = find_means(&c);
+    if (status == SL_OK) status = sli_choice_find_left_out(&c);
     if (status == SL_OK) status = list_all(&c, out);
     sl_free(contents->context, c.means);
+    sl_free(contents->context, c.left.items);
     sli_symbols_destroy(contents->context, &c.symbols);
     return status;
 }
@@ -549,13 +551,15 @@ static sl_status choose(sli_choice *c, sli_pen *pen) {
     bool chosen = choose_groups(c);
     SL_TRY(sli_choice_find_parts(c));
     chosen |= sli_plan_parts_count(&c->parts) > 0;
+    if (chosen) SL_TRY(sli_choice_find_left_out(c));
     SL_TRY(sli_choice_find_openings(c));
     chosen |= c->cuts + c->glazed > 0;
     for (size_t i = 0; i < c->contents->groups.count; i++) {
         const sli_group *group = &c->contents->groups.items[i];
-        if (!chosen || group->taken) sli_keep_finest(&pen->finest, group->finest);
+        if (!chosen || group->taken || group->glazed) sli_keep_finest(&pen->finest, group->finest);
         if (chosen && !group->taken) c->contents->left_out += group->shapes;
     }
+    c->contents->left_out -= c->shown;
     if (!sli_contents_said(c->contents)) sli_choice_note_long_doors(c);
     if (!chosen) {
         sli_choice_note_all(c);
@@ -602,6 +606,7 @@ sl_status sli_contents_choose(sli_contents *contents, double metre, sli_pen *pen
         status = sli_plan_tell(contents->context, contents->file, contents->options->layers,
                                are_alike(&c), pen->map, metre, 0);
     sl_free(contents->context, c.means);
+    sl_free(contents->context, c.left.items);
     sli_symbols_destroy(contents->context, &c.symbols);
     sli_openings_destroy(contents->context, &c.openings);
     sli_plan_parts_destroy(contents->context, &c.parts);

@@ -37,18 +37,26 @@ static sl_status add_openings_of_run(sli_choice *c, const sli_group_run *run, do
     return SL_OK;
 }
 
+sl_status sli_choice_find_ground(sli_choice *c, double *ground) {
+    const sli_group_run *runs = c->contents->runs.items;
+    const size_t count = c->contents->runs.count;
+    sli_look_shape *shapes = sl_alloc_array(c->contents->context, count, sizeof *shapes);
+    if (!shapes) return SL_NO_MEMORY;
+    for (size_t i = 0; i < count; i++)
+        shapes[i] = (sli_look_shape){runs[i].first, runs[i].end, runs[i].look};
+    *ground = sli_looks_ground(c->map, shapes, count, &c->contents->looks);
+    sl_free(c->contents->context, shapes);
+    return SL_OK;
+}
+
 /// Shapes in the colour of the paper, that no name tells of: bars over what is beneath them.
 static sl_status find_bars(sli_choice *c, sl_bits *bars) {
     const sli_group_run *runs = c->contents->runs.items;
     const size_t count = c->contents->runs.count;
     sli_looks *looks = &c->contents->looks;
+    double ground;
     if (!c->contents->has_looks) return SL_OK;
-    sli_look_shape *shapes = sl_alloc_array(c->contents->context, count, sizeof *shapes);
-    if (!shapes) return SL_NO_MEMORY;
-    for (size_t i = 0; i < count; i++)
-        shapes[i] = (sli_look_shape){runs[i].first, runs[i].end, runs[i].look};
-    const double ground = sli_looks_ground(c->map, shapes, count, looks);
-    sl_free(c->contents->context, shapes);
+    SL_TRY(sli_choice_find_ground(c, &ground));
     for (size_t i = 0; i < count; i++) {
         const sli_meaning means = c->contents->groups.items[runs[i].group].means;
         const sli_ink *ink = &looks->items.items[runs[i].look].ink;

@@ -271,14 +271,18 @@ static bool has_walls(const sli_group *group, bool doors) {
     return doors ? group->long_ones > 0 : group->means == SLI_MEANS_NOTHING;
 }
 
-/// Adds a name to a list as --layers takes it. False where it does not fit, or is not to be typed.
-static bool add_layer(const sli_group *group, char *text, size_t size) {
+bool sli_choice_add_name(sli_word name, const char *role, char *text, size_t size) {
     const size_t used = strlen(text);
-    if (!group->length || used + group->length + 2 >= size) return false;
-    for (size_t k = 0; k < group->length; k++)
-        if ((unsigned char)group->name[k] < ' ' || strchr("',\x7f", group->name[k])) return false;
-    snprintf(text + used, size - used, "%s%.*s", used ? "," : "", (int)group->length, group->name);
+    if (!name.length || used + name.length + strlen(role) + 2 >= size) return false;
+    for (size_t k = 0; k < name.length; k++)
+        if ((unsigned char)name.at[k] < ' ' || strchr("',\x7f", name.at[k])) return false;
+    snprintf(text + used, size - used, "%s%.*s%s", used ? "," : "", (int)name.length, name.at,
+             role);
     return true;
+}
+
+static bool add_layer(const sli_group *group, char *text, size_t size) {
+    return sli_choice_add_name((sli_word){group->name, group->length}, "", text, size);
 }
 
 /// Adds layers, those with the longest lines first, down to a tenth of the longest.
@@ -374,6 +378,7 @@ void sli_choice_note_long_doors(const sli_choice *c) {
 void sli_choice_note(const sli_choice *c) {
     note_choice(c);
     sli_choice_note_both(c);
+    sli_choice_note_left_out(c);
     if (c->outlined)
         sl_note(c->contents->context,
                 "%s: layers named for walls have few lines, so layers of rooms give walls, too: "

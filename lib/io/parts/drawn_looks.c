@@ -373,7 +373,8 @@ static bool is_on_ring(const chooser *c, const sli_look_shape *shape, sl_point a
 }
 
 /// Whether the looks that are taken are a ring with gaps, as of windows and doors, and a look draws
-/// lines across what is in it: inner walls. Furniture is smaller, or closed.
+/// lines across what is in it: inner walls. Furniture is smaller, or closed, and windows are on the
+/// ring.
 static bool is_ring_alone(const chooser *c, const sli_look *next) {
     const sl_point along = direction_of_taken(c);
     double outer = 0, across = 0;
@@ -388,7 +389,8 @@ static bool is_ring_alone(const chooser *c, const sli_look *next) {
         const sl_point from = c->map->walls[shape->first].a, to = c->map->walls[shape->end - 1].b;
         const double straight = sli_length(to.x - from.x, to.y - from.y);
         double twice;
-        if (&c->looks->items.items[shape->look] == next && straight * CROSSING >= c->size)
+        if (&c->looks->items.items[shape->look] == next && straight * CROSSING >= c->size &&
+            !is_on_ring(c, shape, along, ring))
             across += straight;
         if (!is_taken(c, i)) continue;
         if (!is_on_ring(c, shape, along, ring)) return false;

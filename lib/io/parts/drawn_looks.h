@@ -28,7 +28,8 @@ typedef struct sli_look {
     double room_area;            ///< of their boxes, as a share of the drawing's
     double weight;               ///< how much like a wall it looks; 0: not at all
     bool taken;
-    bool kept; ///< some of its shapes are walls in the end: not all are lettering
+    bool glazed; ///< some of its lines are windows, though it is not taken
+    bool kept;   ///< some of its shapes are walls in the end: not all are lettering
 } sli_look;
 
 /// How much like walls a look is among those that are not the heaviest: its long lines count by

@@ -249,7 +249,7 @@ void sli_layers_note(sl_context *context, const char *file, const sl_map *map) {
             snprintf(text + used, sizeof text - used, "%s%zu %s", used ? ", " : "", things[i].count,
                      things[i].count == 1 ? things[i].one : things[i].many);
     }
-    if (*text) sl_note(context, "%s: taken by the names of its layers: %s", file, text);
+    if (*text) sl_note(context, "%s: also read: %s", file, text);
 }
 
 // --- writing

@@ -21,9 +21,10 @@ typedef struct word_list {
 } word_list;
 
 /// Glass, of which a whole wall may be: "curtain wall".
-#define GLASS                                                                                                  \
-    "glaz* glass curtain* storefront verglasung* glas vitrage* vitre* vetrat* vetro vetri "                    \
-    "vidrio* cristal* vidro* beglazing витраж* остеклен* стекл* szyb* zaskleni cam camlar " \
+#define GLASS                                                                                                    \
+    "glaz* glass curtain* storefront verglasung* glas vitrage* vitre* vetrat* vetro vetri "                      \
+    "vidrio* cristal* crystal* vidro* beglazing витраж* остеклен* стекл* szyb* zaskleni cam " \
+    "camlar "                                                                                                    \
     "*幕墙* *玻璃* *ガラス* *유리*"
 
 /// Nodes of a route graph, as for finding one's way indoors.
@@ -76,7 +77,7 @@ static const word_list lists[SLI_MEANINGS] = {
         {"other",
          "demo demol* abbruch* abriss* derrib* демонт* *拆除* wallpaper* wallcovering* tapete* "
          "leinwand* roof* dach* toiture* tetto tetti copertur* cubierta* techo* tejado* telhado* "
-         "dak крыш* кровл* strech* cati yttertak *屋顶* *屋根* *지붕* ceiling* clng rcp decke* "
+         "dak крыш* кровл* strech* cati yttertak *屋顶* *屋根* *지붕* ceil* clng rcp decke* "
          "plafond* controsoffitt* soffitt* forro* потол* sufit* strop* *天花* *吊顶* *天井* "
          "*천장* *梁* flor slab* beam* joist* rafter* footing* foundation* fndn fundament* "
          "overhead "
@@ -162,6 +163,12 @@ static const char rooms[] = "room zimmer raum raume chambre salle stanza sala cu
 
 /// What has no walls where there are nodes of a route graph.
 static const char edges[] = "edge link";
+
+/// Ways in and out, which are no doors and no windows by name.
+static const char ways_in[] =
+    "entrance entree entry exit eingang* ausgang* zugang* sortie acces entrada salida acceso saida "
+    "ingresso uscita ingang uitgang вход* выход* wejsci* wyjsci* giris cikis *入口* *出口* *玄関* "
+    "*현관*";
 
 /// What is around a building, where rooms are named one by one. With another word it says where
 /// that stands: "outside walls".
@@ -412,4 +419,12 @@ bool sli_meaning_is_nodes(sli_word name) {
 
 bool sli_meaning_is_edges(sli_word name) {
     return is_all(name, edges);
+}
+
+bool sli_meaning_is_way_in(sli_word name) {
+    const char *at = name.at, *const end = name.at + name.length;
+    char text[LONGEST];
+    for (sli_word word = next_word(&at, end, text); word.length; word = next_word(&at, end, text))
+        if (fits_any(word, ways_in)) return true;
+    return false;
 }

@@ -42,5 +42,7 @@ bool sli_meaning_is_rooms(sli_word name);
 /// Whether a name is that of the nodes of a route graph, or of what may be its edges.
 bool sli_meaning_is_nodes(sli_word name);
 bool sli_meaning_is_edges(sli_word name);
+/// Whether a name has a word for ways in and out.
+bool sli_meaning_is_way_in(sli_word name);
 
 #endif
