@@ -14,6 +14,11 @@ typedef size_t histogram[256];
 /// By how much a line differs from the ground, at least.
 enum { VISIBLE = 32 };
 
+/// A share of the range of values, in hundredths.
+static double rounded(double value) {
+    return fmax(0.01, round(value / 255 * 100) / 100);
+}
+
 static size_t pixels_of(const sl_image *image) {
     return image->width * image->height;
 }
@@ -136,6 +141,41 @@ bool sli_image_is_light(const sl_image *image, size_t *row) {
            are_light_lines(image, count, find_ground(count) + VISIBLE, row);
 }
 
+/// The commonest lightness from 0 to 127 that is not within `apart` of `other`.
+static unsigned commonest_dark(const histogram count, unsigned other, unsigned apart) {
+    unsigned commonest = 256;
+    for (unsigned i = 0; i < 128; i++) {
+        if (other < 256 && i < other + apart && other < i + apart) continue;
+        if (commonest == 256 || count[i] > count[commonest]) commonest = i;
+    }
+    return commonest;
+}
+
+/// Lines on a page and rooms in rock are told apart by how thick most of what is light is. A second
+/// dark ground has a tenth of the picture, as the first has.
+sli_image_page sli_image_find_page(const sl_image *image, size_t *row) {
+    enum { APART = 12 };
+    const size_t all = pixels_of(image), limit = thin_side(image, 32);
+    sli_image_page out = {.has_lines = false};
+    histogram count = {0};
+    for (size_t i = 0; i < all; i++) count[image->pixels[i]]++;
+    const unsigned dark = split(count, all);
+    if (dark == 255 || dark_edge(image, dark) < 0.8) return out;
+    size_t light = 0;
+    for (unsigned i = dark + 1; i < 256; i++) light += count[i];
+    out.has_lines =
+        3 * light <= all &&
+        4 * find_squares(image->pixels, 1, image, dark + 1, 255, limit, row).above < light;
+    const unsigned first = commonest_dark(count, 256, APART);
+    const unsigned second = commonest_dark(count, first, APART);
+    if (10 * count[first] < all || 10 * count[second] < all) return out;
+    const unsigned darker = first < second ? first : second, lighter = first + second - darker;
+    out.lightness = rounded(darker);
+    out.second = rounded(lighter);
+    out.threshold = 1 - rounded((darker + lighter) / 2.0);
+    return out;
+}
+
 // --- the threshold
 
 static bool touches_solid(const sl_image *image, bool light, size_t x, size_t y) {
@@ -158,10 +198,6 @@ static double share_between(const histogram count, unsigned ground, size_t all) 
         rest[commonest] = 0;
     }
     return (double)between / (double)all;
-}
-
-static double rounded(double value) {
-    return fmax(0.01, round(value / 255 * 100) / 100);
 }
 
 /// Counts what is fainter than the threshold and no soft edge of what is solid.
@@ -190,6 +226,7 @@ sli_image_levels sli_image_find_levels(const sl_image *image, bool light, size_t
     const unsigned ground = find_ground(count);
     for (unsigned i = 128; i < 256; i++) solid += count[i];
     out.between = share_between(count, ground, all);
+    out.soft = out.between * (double)all >= (double)solid / 50;
     find_lost(image, light, ground, &out);
     if (out.lost <= 4 * solid) return out;
     const unsigned least = ground + VISIBLE;
