@@ -43,9 +43,8 @@ static void assert_read(painting *p, const char *layers, double threshold, size_
     p->notes[0] = '\0';
     p->context = sl_context_create(&hooks);
     assert_non_null(p->context);
-    assert_ok(p->context,
-              sli_map_read_image(p->context, "f", p->bytes, p->header + (size_t)SIDE * SIDE,
-                                 &options, &p->map));
+    assert_ok(p->context, sli_map_read_image(p->context, "f", p->bytes,
+                                             p->header + (size_t)SIDE * SIDE, &options, &p->map));
     if (p->map.wall_count != walls)
         fail_msg("%zu walls, not %zu: %s", p->map.wall_count, walls, p->notes);
     sl_map_destroy(p->context, &p->map);
@@ -90,8 +89,9 @@ static void test_dark_page_in_doubt(void **state) {
     frame(&p, 10, 10, 180, 180, 3, 255);
     paint(&p, 90, 90, 20, 20, 255);
     assert_read(&p, NULL, 0, 4 + 12);
-    assert_note(&p, "f: the page is dark and solid, and what is light on it is mostly thin: if it "
-                    "is the walls: --layers light\n",
+    assert_note(&p,
+                "f: the page is dark and solid, and what is light on it is mostly thin: if it "
+                "is the walls: --layers light\n",
                 true);
     assert_read(&p, "light", 0, 12);
     assert_note(&p, "the page is dark", false);
@@ -112,8 +112,9 @@ static void test_two_dark_tones(void **state) {
     paint(&p, 102, 20, 80, 160, 44);
     paint(&p, 140, 100, 20, 20, 255);
     assert_read(&p, NULL, 0, 4 + 4);
-    assert_note(&p, "f: two dark tones are solid (lightness about 0.07 and 0.17): if the lighter "
-                    "one is open ground: --threshold 0.88\n",
+    assert_note(&p,
+                "f: two dark tones are solid (lightness about 0.07 and 0.17): if the lighter "
+                "one is open ground: --threshold 0.88\n",
                 true);
     assert_read(&p, NULL, 0.88, 4 + 8);
     assert_note(&p, "two dark tones", false);
@@ -140,15 +141,20 @@ static void test_lettering(void **state) {
     begin(&p, 255);
     soft_frame(&p);
     for (int i = 0; i < 6; i++) letter(&p, 60, 40 + 20 * i);
-    // A column beside it, and a row of columns that are as near to each other as letters are.
+    // A point, and a number behind a space. Columns: beside a word, alone, and a row of
+    // them that are as near to each other as letters are.
+    paint(&p, 76, 46, 1, 1, 0);
+    paint(&p, 78, 60, 1, 7, 0);
+    paint(&p, 78, 80, 6, 6, 0);
     paint(&p, 120, 60, 6, 6, 0);
     for (int i = 0; i < 5; i++) paint(&p, 20 + 9 * i, 170, 6, 6, 0);
-    assert_read(&p, NULL, 0, 8 + 6 * 4);
-    assert_note(&p, "f: 18 small pieces in rows are left out as lettering; --layers dark takes "
-                    "them too\n",
+    assert_read(&p, NULL, 0, 8 + 7 * 4);
+    assert_note(&p,
+                "f: 20 small pieces in rows are left out as lettering; --layers dark takes "
+                "them too\n",
                 true);
-    assert_note(&p, "f: 6 small pieces of up to 6 x 6 pixels touch nothing", true);
-    assert_read(&p, "dark", 0, 8 + 6 * 4 + 6 * (6 + 8 + 4));
+    assert_note(&p, "f: 7 small pieces of up to 6 x 6 pixels touch nothing", true);
+    assert_read(&p, "dark", 0, 8 + 7 * 4 + 2 * 4 + 6 * (6 + 8 + 4));
     assert_note(&p, "left out as lettering", false);
     assert_read(&p, "large", 0, 8);
     // Without soft edges it is a mask, and each of its pixels counts.

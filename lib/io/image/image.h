@@ -21,8 +21,8 @@ typedef enum sli_left_out {
 
 /// How a picture is a plan.
 typedef struct sli_image_plan {
-    double threshold;   ///< a pixel is solid where its darkness, 0 .. 1, is at least this
-    bool light;         ///< the light pixels are the dark ones
+    double threshold; ///< a pixel is solid where its darkness, 0 .. 1, is at least this
+    bool light;       ///< the light pixels are the dark ones
     sli_left_out left_out;
     bool solid_outside; ///< beyond the picture all is solid; else it is open
     double step;        ///< the size of a pixel
@@ -31,8 +31,8 @@ typedef struct sli_image_plan {
 
 /// Small pieces of solid: symbols, columns, and lettering where it is not left out.
 typedef struct sli_image_small {
-    size_t letters; ///< pieces that are left out as lettering
-    size_t count;   ///< other pieces
+    size_t letters;       ///< pieces that are left out as lettering
+    size_t count;         ///< other pieces
     size_t width, height; ///< of the largest, in pixels
 } sli_image_small;
 

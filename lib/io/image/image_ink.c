@@ -35,14 +35,14 @@ static unsigned value_of(const sl_image *image, bool light, size_t i) {
     return light ? image->pixels[i] : 255u - image->pixels[i];
 }
 
-/// The largest square whose pixels are all of one class, and how many pixels are the last corners of
-/// squares above a side.
+/// The largest square whose pixels are all of one class, and how many pixels are the last corners
+/// of squares above a side.
 typedef struct squares {
     size_t largest, above;
 } squares;
 
-/// Squares of pixels with values of `least` to `most`. `row[x]` is the side of the largest one whose
-/// last corner is x.
+/// Squares of pixels with values of `least` to `most`. `row[x]` is the side of the largest one
+/// whose last corner is x.
 static squares find_squares(const unsigned char *values, size_t stride, const sl_image *image,
                             unsigned least, unsigned most, size_t limit, size_t *row) {
     squares out = {0};
@@ -231,9 +231,8 @@ sli_image_levels sli_image_find_levels(const sl_image *image, bool light, size_t
     if (out.lost <= 4 * solid) return out;
     const unsigned least = ground + VISIBLE;
     const size_t limit = thin_side(image, 16);
-    const squares lines = light
-                              ? find_squares(image->pixels, 1, image, least, 255, limit, row)
-                              : find_squares(image->pixels, 1, image, 0, 255 - least, limit, row);
+    const squares lines = light ? find_squares(image->pixels, 1, image, least, 255, limit, row)
+                                : find_squares(image->pixels, 1, image, 0, 255 - least, limit, row);
     if (lines.above) return out;
     out.threshold = out.lost_from;
     out.faint = true;

@@ -7,7 +7,8 @@
 ///                  gap              are no words, and neither are outlines, as of furniture.
 ///
 /// Rows run from left to right, or up a wall, so all is done along one axis and then along the
-/// other. What is smaller and within a word belongs to it: dots, accents, a letter alone.
+/// other. What is smaller and within a word or a space away from it belongs to it: dots, accents, a
+/// letter alone. A full square as large as a letter does not: it is a column.
 #include "io/image/image.h"
 #include "sightline/support.h"
 
@@ -57,6 +58,12 @@ static size_t smaller(size_t a, size_t b) {
     return a < b ? a : b;
 }
 
+/// Whether a piece is as large as a letter and full: a column.
+static bool is_column(const sli_piece *piece, size_t height) {
+    const size_t wide = extent(piece, 0), high = extent(piece, 1);
+    return 2 * smaller(wide, high) >= height && 10 * piece->area >= 9 * wide * high;
+}
+
 /// Whether `b` may be the next letter behind `a`.
 static bool follows(const lettering *l, const sli_piece *a, const sli_piece *b) {
     const size_t high_a = extent(a, l->across), high_b = extent(b, l->across);
@@ -64,6 +71,7 @@ static bool follows(const lettering *l, const sli_piece *a, const sli_piece *b) 
     const size_t high = smaller(a->high[l->across], b->high[l->across]);
     if (smaller(high_a, high_b) < LETTER || larger(high_a, high_b) > 2 * smaller(high_a, high_b))
         return false;
+    if (is_column(a, high_a) || is_column(b, high_b)) return false;
     if (high < low || 2 * (high - low) < smaller(high_a, high_b)) return false;
     if (b->high[l->along] <= a->high[l->along]) return false;
     const size_t from = smaller(a->high[l->along], b->low[l->along]);
@@ -131,14 +139,15 @@ static sl_status find_words(sl_context *context, lettering *l) {
     return SL_OK;
 }
 
-/// Whether a piece lies within a word or close beside it, and is no higher.
+/// Whether a piece lies within a word or beside it, at most a space away, and is no higher.
 static bool is_within(const lettering *l, const sli_piece *piece, const word_sum *sum) {
-    const size_t behind = 3 * sum->height / 5, above = sum->height / 3;
-    return extent(piece, l->across) <= sum->height && extent(piece, l->along) <= sum->height &&
+    const size_t behind = sum->height, above = sum->height / 3;
+    return !is_column(piece, sum->height) && extent(piece, l->across) <= sum->height &&
+           extent(piece, l->along) <= sum->height &&
            piece->low[l->across] + above >= sum->low[l->across] &&
            piece->high[l->across] <= sum->high[l->across] + above &&
-           piece->low[l->along] + behind >= sum->low[l->along] &&
-           piece->high[l->along] <= sum->high[l->along] + behind;
+           piece->high[l->along] + behind >= sum->low[l->along] &&
+           piece->high[l->along] <= sum->high[l->along] + behind + extent(piece, l->along);
 }
 
 static size_t first_from(const lettering *l, size_t least) {
@@ -159,7 +168,7 @@ static void mark_letters(lettering *l) {
     for (size_t i = 0; i < l->count; i++) {
         const word_sum *sum = &l->sums[i];
         if (!sum->is_word) continue;
-        const size_t low = sum->low[l->along] - smaller(sum->low[l->along], sum->height);
+        const size_t low = sum->low[l->along] - smaller(sum->low[l->along], 2 * sum->height);
         for (size_t k = first_from(l, low);
              k < l->count && l->pieces[k]->low[l->along] <= sum->high[l->along] + sum->height; k++)
             l->pieces[k]->letter |= is_within(l, l->pieces[k], sum);
@@ -183,8 +192,7 @@ sl_status sli_image_find_letters(sl_context *context, sli_piece **pieces, size_t
     l.word = sl_alloc_array(context, count, sizeof *l.word);
     l.sums = sl_alloc_array(context, count, sizeof *l.sums);
     sl_status status = l.word && l.sums ? SL_OK : SL_NO_MEMORY;
-    for (int axis = 0; status == SL_OK && axis < 2; axis++)
-        status = find_along(context, &l, axis);
+    for (int axis = 0; status == SL_OK && axis < 2; axis++) status = find_along(context, &l, axis);
     sl_free(context, l.word);
     sl_free(context, l.sums);
     return status;

@@ -1,6 +1,7 @@
 /// Small pieces of solid pixels that touch nothing: lettering and symbols of a scanned plan, but
-/// columns too, which stay unless all are left out. Pixels that meet at corners are of one piece. Pieces are found by runs: each run of
-/// solid pixels in a row joins those of the row above that it touches, in a forest of sets.
+/// columns too, which stay unless all are left out. Pixels that meet at corners are of one piece.
+/// Pieces are found by runs: each run of solid pixels in a row joins those of the row above that it
+/// touches, in a forest of sets.
 #include "io/image/image.h"
 #include "sightline/support.h"
 
