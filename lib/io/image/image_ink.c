@@ -11,14 +11,23 @@
 
 typedef size_t histogram[256];
 
+/// By how much a line differs from the ground, at least.
+enum { VISIBLE = 32 };
+
+/// A share of the range of values, in hundredths.
+static double rounded(double value) {
+    return fmax(0.01, round(value / 255 * 100) / 100);
+}
+
 static size_t pixels_of(const sl_image *image) {
     return image->width * image->height;
 }
 
-/// Whether the largest square is 2 pixels at most, or one `share`th of the picture's shorter side.
-static bool is_thin(const sl_image *image, size_t square, size_t share) {
+/// The side of the largest square that is thin: 2 pixels, or one `share`th of the picture's shorter
+/// side.
+static size_t thin_side(const sl_image *image, size_t share) {
     const size_t shorter = image->width < image->height ? image->width : image->height;
-    return square <= 2 || square <= shorter / share;
+    return shorter / share > 2 ? shorter / share : 2;
 }
 
 /// The value of a pixel: how dark it is, or how light.
@@ -26,11 +35,17 @@ static unsigned value_of(const sl_image *image, bool light, size_t i) {
     return light ? image->pixels[i] : 255u - image->pixels[i];
 }
 
-/// The side of the largest square whose pixels all have values of `least` to `most`, up to `enough`
-/// where it is not 0. `row[x]` is the side of the largest one whose last corner is x.
-static size_t largest_square(const unsigned char *values, size_t stride, const sl_image *image,
-                             unsigned least, unsigned most, size_t *row) {
-    size_t largest = 0;
+/// The largest square whose pixels are all of one class, and how many pixels are the last corners
+/// of squares above a side.
+typedef struct squares {
+    size_t largest, above;
+} squares;
+
+/// Squares of pixels with values of `least` to `most`. `row[x]` is the side of the largest one
+/// whose last corner is x.
+static squares find_squares(const unsigned char *values, size_t stride, const sl_image *image,
+                            unsigned least, unsigned most, size_t limit, size_t *row) {
+    squares out = {0};
     memset(row, 0, (image->width + 1) * sizeof *row);
     for (size_t y = 0; y < image->height; y++) {
         size_t corner = 0; // above and before
@@ -44,10 +59,11 @@ static size_t largest_square(const unsigned char *values, size_t stride, const s
             }
             corner = above;
             row[x + 1] = side;
-            if (side > largest) largest = side;
+            if (side > out.largest) out.largest = side;
+            out.above += side > limit;
         }
     }
-    return largest;
+    return out;
 }
 
 /// The last value of the lower of the two classes that differ most; 255 where there is one value.
@@ -77,35 +93,90 @@ bool sli_image_is_opaque(const unsigned char *alpha, const sl_image *image, size
         light += alpha[2 * i] >= 128;
     }
     if (!opaque || 2 * opaque > all || 2 * light < opaque) return false;
-    const size_t side = largest_square(alpha + 1, 2, image, 128, 255, row);
-    return is_thin(image, side, 16);
+    const size_t limit = thin_side(image, 16);
+    return find_squares(alpha + 1, 2, image, 128, 255, limit, row).largest <= limit;
 }
 
-bool sli_image_is_light(const sl_image *image, size_t *row) {
-    const size_t all = pixels_of(image);
-    histogram count = {0};
-    for (size_t i = 0; i < all; i++) count[image->pixels[i]]++;
-    const unsigned dark = split(count, all);
-    size_t light = 0, edge = 0, dark_edge = 0;
-    for (unsigned i = dark + 1; i < 256; i++) light += count[i];
-    if (dark == 255 || 3 * light > all) return false;
+/// How much of the picture's edge has values up to `dark`.
+static double dark_edge(const sl_image *image, unsigned dark) {
+    size_t edge = 0, is_dark = 0;
     for (size_t y = 0; y < image->height; y++) {
         const bool whole = y == 0 || y + 1 == image->height || image->width == 1;
         for (size_t x = 0; x < image->width; x += whole ? 1 : image->width - 1) {
             edge++;
-            dark_edge += image->pixels[y * image->width + x] <= dark;
+            is_dark += image->pixels[y * image->width + x] <= dark;
         }
     }
-    if (5 * dark_edge < 4 * edge) return false;
-    const size_t lines = largest_square(image->pixels, 1, image, dark + 1, 255, row);
-    if (!is_thin(image, lines, 32)) return false;
-    return largest_square(image->pixels, 1, image, 0, dark, row) >= 6 * lines;
+    return (double)is_dark / (double)edge;
+}
+
+/// Whether what is lighter than `dark` is thin lines on a dark ground, but for a fiftieth: names in
+/// large letters, symbols, legends.
+static bool are_light_lines(const sl_image *image, const histogram count, unsigned dark,
+                            size_t *row) {
+    const size_t all = pixels_of(image), limit = thin_side(image, 32);
+    size_t light = 0;
+    for (unsigned i = dark + 1; i < 256; i++) light += count[i];
+    if (light == 0 || 3 * light > all || dark_edge(image, dark) < 0.8) return false;
+    const squares lines = find_squares(image->pixels, 1, image, dark + 1, 255, limit, row);
+    if (50 * lines.above > light) return false;
+    const size_t side = lines.largest < limit ? lines.largest : limit;
+    return find_squares(image->pixels, 1, image, 0, dark, 0, row).largest >= 6 * side;
+}
+
+/// The commonest of the dark values.
+static unsigned find_ground(const histogram count) {
+    unsigned ground = 0;
+    for (unsigned i = 1; i < 128; i++)
+        if (count[i] > count[ground]) ground = i;
+    return ground;
+}
+
+bool sli_image_is_light(const sl_image *image, size_t *row) {
+    histogram count = {0};
+    for (size_t i = 0; i < pixels_of(image); i++) count[image->pixels[i]]++;
+    // The second split passes over a grid that is hardly lighter than the page. The first may part
+    // the two from each other, where the lines are few.
+    return are_light_lines(image, count, split(count, pixels_of(image)), row) ||
+           are_light_lines(image, count, find_ground(count) + VISIBLE, row);
+}
+
+/// The commonest lightness from 0 to 127 that is not within `apart` of `other`.
+static unsigned commonest_dark(const histogram count, unsigned other, unsigned apart) {
+    unsigned commonest = 256;
+    for (unsigned i = 0; i < 128; i++) {
+        if (other < 256 && i < other + apart && other < i + apart) continue;
+        if (commonest == 256 || count[i] > count[commonest]) commonest = i;
+    }
+    return commonest;
+}
+
+/// Lines on a page and rooms in rock are told apart by how thick most of what is light is. A second
+/// dark ground has a tenth of the picture, as the first has.
+sli_image_page sli_image_find_page(const sl_image *image, size_t *row) {
+    enum { APART = 12 };
+    const size_t all = pixels_of(image), limit = thin_side(image, 32);
+    sli_image_page out = {.has_lines = false};
+    histogram count = {0};
+    for (size_t i = 0; i < all; i++) count[image->pixels[i]]++;
+    const unsigned dark = split(count, all);
+    if (dark == 255 || dark_edge(image, dark) < 0.8) return out;
+    size_t light = 0;
+    for (unsigned i = dark + 1; i < 256; i++) light += count[i];
+    out.has_lines =
+        3 * light <= all &&
+        4 * find_squares(image->pixels, 1, image, dark + 1, 255, limit, row).above < light;
+    const unsigned first = commonest_dark(count, 256, APART);
+    const unsigned second = commonest_dark(count, first, APART);
+    if (10 * count[first] < all || 10 * count[second] < all) return out;
+    const unsigned darker = first < second ? first : second, lighter = first + second - darker;
+    out.lightness = rounded(darker);
+    out.second = rounded(lighter);
+    out.threshold = 1 - rounded((darker + lighter) / 2.0);
+    return out;
 }
 
 // --- the threshold
-
-/// By how much a line is darker than the ground, at least.
-enum { VISIBLE = 32 };
 
 static bool touches_solid(const sl_image *image, bool light, size_t x, size_t y) {
     for (size_t v = y ? y - 1 : 0; v <= y + 1 && v < image->height; v++)
@@ -129,10 +200,6 @@ static double share_between(const histogram count, unsigned ground, size_t all) 
     return (double)between / (double)all;
 }
 
-static double rounded(double value) {
-    return fmax(0.01, round(value / 255 * 100) / 100);
-}
-
 /// Counts what is fainter than the threshold and no soft edge of what is solid.
 static void find_lost(const sl_image *image, bool light, unsigned ground, sli_image_levels *out) {
     double sum = 0;
@@ -154,19 +221,19 @@ sli_image_levels sli_image_find_levels(const sl_image *image, bool light, size_t
     const size_t all = pixels_of(image);
     sli_image_levels out = {.threshold = 0.5};
     histogram count = {0};
-    unsigned ground = 0;
     size_t solid = 0;
     for (size_t i = 0; i < all; i++) count[value_of(image, light, i)]++;
-    for (unsigned i = 1; i < 128; i++)
-        if (count[i] > count[ground]) ground = i;
+    const unsigned ground = find_ground(count);
     for (unsigned i = 128; i < 256; i++) solid += count[i];
     out.between = share_between(count, ground, all);
+    out.soft = out.between * (double)all >= (double)solid / 50;
     find_lost(image, light, ground, &out);
     if (out.lost <= 4 * solid) return out;
     const unsigned least = ground + VISIBLE;
-    const size_t side = light ? largest_square(image->pixels, 1, image, least, 255, row)
-                              : largest_square(image->pixels, 1, image, 0, 255 - least, row);
-    if (!is_thin(image, side, 16)) return out;
+    const size_t limit = thin_side(image, 16);
+    const squares lines = light ? find_squares(image->pixels, 1, image, least, 255, limit, row)
+                                : find_squares(image->pixels, 1, image, 0, 255 - least, limit, row);
+    if (lines.above) return out;
     out.threshold = out.lost_from;
     out.faint = true;
     out.lost = 0;

@@ -25,7 +25,7 @@ sl_status sli_image_add_walls(sl_context *context, const sl_image *image,
         ++*solid;
     }
     sl_status status = SL_OK;
-    if (small) status = sli_image_find_small(context, &grid, plan->large, small);
+    if (small) status = sli_image_find_small(context, &grid, plan->left_out, small);
     if (status == SL_OK) status = sli_grid_add_walls(context, &grid, map);
     sli_grid_destroy(context, &grid);
     return status;
@@ -102,13 +102,36 @@ static void note_doubts(const reader *r, const sli_image_levels *levels, size_t 
                 "%s: %zu grey pixels (%s about %g) are open; if walls are among them: "
                 "--threshold %g",
                 r->name, levels->lost, words[r->solid], levels->lost_level, levels->lost_from);
-    if (!small->count) return;
-    sl_note(r->context,
-            "%s: %zu small piece%s of up to %zu x %zu pixels %s nothing (lettering, symbols, "
-            "columns): %s%s%s",
-            r->name, small->count, small->count == 1 ? "" : "s", small->width, small->height,
-            small->count == 1 ? "touches" : "touch", large ? "left out" : "walls too; --layers ",
-            large ? "" : r->before, large ? "" : "large leaves them out");
+    if (small->letters)
+        sl_note(r->context,
+                "%s: %zu small piece%s in rows %s left out as lettering; --layers %s%s takes %s too",
+                r->name, small->letters, small->letters == 1 ? "" : "s",
+                small->letters == 1 ? "is" : "are", r->before, layer_names[r->solid],
+                small->letters == 1 ? "it" : "them");
+    if (small->count)
+        sl_note(r->context,
+                "%s: %zu small piece%s of up to %zu x %zu pixels %s nothing (lettering, symbols, "
+                "columns): %s%s%s",
+                r->name, small->count, small->count == 1 ? "" : "s", small->width, small->height,
+                small->count == 1 ? "touches" : "touch",
+                large ? "left out" : "walls too; --layers ", large ? "" : r->before,
+                large ? "" : "large leaves them out");
+}
+
+/// A dark page that is solid may be the ground of light lines, or of dark rooms.
+static void note_page(const reader *r) {
+    if (r->said || r->solid != INK_DARK) return;
+    const sli_image_page page = sli_image_find_page(&r->image, r->row);
+    if (page.has_lines)
+        sl_note(r->context,
+                "%s: the page is dark and solid, and what is light on it is mostly thin: if it is "
+                "the walls: --layers %slight",
+                r->name, r->before);
+    if (page.threshold > 0 && !(r->options->threshold > 0))
+        sl_note(r->context,
+                "%s: two dark tones are solid (lightness about %g and %g): if the lighter one is "
+                "open ground: --threshold %g",
+                r->name, page.lightness, page.second, page.threshold);
 }
 
 static void note_taken(const reader *r, const sli_image_plan *plan, size_t solid, size_t walls,
@@ -135,15 +158,21 @@ static sl_status read_plan(reader *r, const char *text, size_t size, sl_map *map
     SL_TRY(sli_image_read_alpha(r->context, r->name, text, size, &r->alpha));
     r->row = sl_alloc_array(r->context, r->image.width + 1, sizeof *r->row);
     if (!r->row) return SL_NO_MEMORY;
-    SL_TRY(choose_ink(r, &plan.large));
+    bool large;
+    SL_TRY(choose_ink(r, &large));
     lay_on_ground(r);
     plan.light = r->solid == INK_LIGHT;
     const sli_image_levels levels = sli_image_find_levels(&r->image, plan.light, r->row);
     const bool given = r->options->threshold > 0;
+    if (large)
+        plan.left_out = SLI_LEAVE_OUT_SMALL;
+    else if (!r->said && levels.soft)
+        plan.left_out = SLI_LEAVE_OUT_LETTERS;
     plan.threshold = given ? r->options->threshold : levels.threshold;
     SL_TRY(sli_image_add_walls(r->context, &r->image, &plan, map, &solid, &small));
     note_taken(r, &plan, solid, map->wall_count, levels.faint && !given);
-    note_doubts(r, &levels, solid, &small, plan.large);
+    note_page(r);
+    note_doubts(r, &levels, solid, &small, large);
     strcpy(map->unit, "px");
     map->entrance_may_be_wide = true;
     map->source.transform = sli_y_down((double)r->image.height, 1);
