@@ -57,6 +57,9 @@
 /// How much less roomy than niches outdoors rooms are.
 #define ROOMY 4
 
+/// How far apart shares of the area may be that are nearly the same.
+static const double STEADY = 0.1;
+
 // --- the width
 
 /// Sorts out channels by the exact width: their rounded ones then agree with it.
@@ -490,17 +493,24 @@ static double share_of_building(const sli_entrances *f) {
     return share >= 0.5 || is_building(f, false) ? share : 0;
 }
 
-sl_status sli_entrances_shares(sl_context *context, sl_map *map, const double *widths, size_t count,
-                               double *shares) {
+sl_status sli_entrances_are_steady(sl_context *context, sl_map *map, double narrow, double width,
+                                   bool *steady) {
+    enum { WIDTHS = 6 };
+    const double widths[WIDTHS] = {narrow,      width,        1.25 * width,
+                                   1.5 * width, 1.75 * width, 2 * width};
+    double shares[WIDTHS];
     sli_entrances f;
     SL_TRY(begin_search_of_entrances(&f, context, map));
-    sl_status status = make_channels(&f, widths[count - 1]);
-    for (size_t i = 0; i < count && status == SL_OK; i++) {
-        const double width = widths[i] + f.weld;
-        settle_widths(&f, width);
+    sl_status status = make_channels(&f, widths[WIDTHS - 1]);
+    *steady = true;
+    for (size_t i = 0; i < WIDTHS && *steady && status == SL_OK; i++) {
+        settle_widths(&f, widths[i] + f.weld);
         status = sli_access_find(&f);
-        if (status == SL_OK) status = sli_parts_choose(&f, width);
-        if (status == SL_OK) shares[i] = share_of_building(&f);
+        if (status == SL_OK) status = sli_parts_choose(&f, widths[i] + f.weld);
+        if (status != SL_OK) break;
+        shares[i] = share_of_building(&f);
+        if (i == 1) *steady = shares[1] > 0 && shares[0] <= (1 + STEADY) * shares[1];
+        if (i > 1) *steady = fabs(shares[i] - shares[1]) <= STEADY * shares[1];
     }
     destroy(&f);
     return status;

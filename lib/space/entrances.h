@@ -125,10 +125,11 @@ sl_status sli_entrances_try(sl_context *context, sl_map *map, sl_entrance by, do
                             double most, bool *found);
 /// Forgets what was found before.
 void sli_entrances_forget(sl_context *context, sl_map *map);
-/// The share of the map's box that is inside with each of some widths, in ascending order, if
-/// nothing is doubtful; 0 where that is no building.
-sl_status sli_entrances_shares(sl_context *context, sl_map *map, const double *widths, size_t count,
-                               double *shares);
+/// Whether about as much of the map's box is inside with openings up to a width and up to twice as
+/// wide ones, if nothing is doubtful; and no less than with the narrow width. It must be a
+/// building.
+sl_status sli_entrances_are_steady(sl_context *context, sl_map *map, double narrow, double width,
+                                   bool *steady);
 /// Where an opening is in doubt in a plan that is drawn: takes a wider one as an entrance, if that
 /// leaves no doubt.
 sl_status sli_entrances_widen(sl_context *context, sl_map *map);

@@ -22,9 +22,6 @@
 
 /// Doors of a plan are usually wider than this share of it.
 #define DOORS_IN_PLAN 100
-/// How far apart shares of the area may be that are nearly the same.
-static const double STEADY = 0.1;
-
 /// What a search found, kept while others are tried.
 typedef struct answer {
     sl_interior interior; ///< with places of its own
@@ -81,19 +78,12 @@ static sl_status try_wider(sl_context *context, sl_map *map, const sl_interior *
     return SL_OK;
 }
 
-/// Takes the opening, if about as much is inside with all widths up to twice that of the opening,
-/// and no less than with the narrow width.
+/// Takes the opening, if twice as wide ones would change little.
 static sl_status try_steady(sl_context *context, sl_map *map, const sl_interior *before,
                             bool *found) {
-    enum { WIDTHS = 6 };
     const double width = before->doubtful_width;
-    const double widths[WIDTHS] = {before->width, width,        1.25 * width,
-                                   1.5 * width,   1.75 * width, 2 * width};
-    double shares[WIDTHS];
     sli_entrances_forget(context, map);
-    SL_TRY(sli_entrances_shares(context, map, widths, WIDTHS, shares));
-    *found = shares[1] > 0 && shares[0] <= (1 + STEADY) * shares[1];
-    for (size_t i = 2; i < WIDTHS; i++) *found &= fabs(shares[i] - shares[1]) <= STEADY * shares[1];
+    SL_TRY(sli_entrances_are_steady(context, map, before->width, width, found));
     if (!*found) return SL_OK;
     return sli_entrances_try(context, map, SL_ENTRANCE_WIDE, width, width, found);
 }
