@@ -56,6 +56,21 @@ static void assert_note(const painting *p, const char *note, bool is) {
         fail_msg("'%s' is%s in '%s'", note, is ? " not" : "", p->notes);
 }
 
+/// A wall about the picture, its inner edge in many greys, as drawing programs make them.
+static void soft_frame(painting *p) {
+    frame(p, 5, 5, 190, 190, 4, 0);
+    for (int i = 9; i < 190; i++) paint(p, i, 9, 1, 1, 150 + i / 2);
+}
+
+/// Three letters: an L, a T and an I.
+static void letter(painting *p, int x, int y) {
+    paint(p, x, y, 1, 7, 0);
+    paint(p, x, y + 6, 4, 1, 0);
+    paint(p, x + 6, y, 5, 1, 0);
+    paint(p, x + 8, y, 1, 7, 0);
+    paint(p, x + 13, y, 1, 7, 0);
+}
+
 /// Light lines on a dark page with a grid that is hardly lighter, up to the edge.
 static void test_faint_grid(void **state) {
     (void)state;
@@ -87,13 +102,18 @@ static void test_dark_page_in_doubt(void **state) {
     painting p;
     begin(&p, 0);
     frame(&p, 10, 10, 180, 180, 3, 255);
-    paint(&p, 90, 90, 20, 20, 255);
+    paint(&p, 90, 60, 20, 40, 255);
     assert_read(&p, NULL, 0, 4 + 12);
     assert_note(&p,
                 "f: the page is dark and solid, and what is light on it is mostly thin: if it "
                 "is the walls: --layers light\n",
                 true);
-    assert_read(&p, "light", 0, 12);
+    // What is dark in light ground is no lettering then.
+    for (int i = 13; i < 187; i++) paint(&p, i, 13, 1, 1, 150 + i / 2);
+    letter(&p, 93, 90);
+    assert_read(&p, NULL, 0, 4 + 12 + 6 + 8 + 4);
+    assert_note(&p, "the page is dark", true);
+    assert_read(&p, "light", 0, 12 + 6 + 8 + 4);
     assert_note(&p, "the page is dark", false);
     begin(&p, 0);
     paint(&p, 20, 20, 60, 60, 255);
@@ -118,21 +138,6 @@ static void test_two_dark_tones(void **state) {
                 true);
     assert_read(&p, NULL, 0.88, 4 + 8);
     assert_note(&p, "two dark tones", false);
-}
-
-/// A wall about the picture, its inner edge in many greys, as drawing programs make them.
-static void soft_frame(painting *p) {
-    frame(p, 5, 5, 190, 190, 4, 0);
-    for (int i = 9; i < 190; i++) paint(p, i, 9, 1, 1, 150 + i / 2);
-}
-
-/// Three letters: an L, a T and an I.
-static void letter(painting *p, int x, int y) {
-    paint(p, x, y, 1, 7, 0);
-    paint(p, x, y + 6, 4, 1, 0);
-    paint(p, x + 6, y, 5, 1, 0);
-    paint(p, x + 8, y, 1, 7, 0);
-    paint(p, x + 13, y, 1, 7, 0);
 }
 
 static void test_lettering(void **state) {

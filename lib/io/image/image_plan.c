@@ -119,19 +119,17 @@ static void note_doubts(const reader *r, const sli_image_levels *levels, size_t 
 }
 
 /// A dark page that is solid may be the ground of light lines, or of dark rooms.
-static void note_page(const reader *r) {
-    if (r->said || r->solid != INK_DARK) return;
-    const sli_image_page page = sli_image_find_page(&r->image, r->row);
-    if (page.has_lines)
+static void note_page(const reader *r, const sli_image_page *page) {
+    if (page->has_lines)
         sl_note(r->context,
                 "%s: the page is dark and solid, and what is light on it is mostly thin: if it is "
                 "the walls: --layers %slight",
                 r->name, r->before);
-    if (page.threshold > 0 && !(r->options->threshold > 0))
+    if (page->threshold > 0 && !(r->options->threshold > 0))
         sl_note(r->context,
                 "%s: two dark tones are solid (lightness about %g and %g): if the lighter one is "
                 "open ground: --threshold %g",
-                r->name, page.lightness, page.second, page.threshold);
+                r->name, page->lightness, page->second, page->threshold);
 }
 
 static void note_taken(const reader *r, const sli_image_plan *plan, size_t solid, size_t walls,
@@ -164,14 +162,16 @@ static sl_status read_plan(reader *r, const char *text, size_t size, sl_map *map
     plan.light = r->solid == INK_LIGHT;
     const sli_image_levels levels = sli_image_find_levels(&r->image, plan.light, r->row);
     const bool given = r->options->threshold > 0;
+    sli_image_page page = {.has_lines = false};
+    if (!r->said && r->solid == INK_DARK) page = sli_image_find_page(&r->image, r->row);
     if (large)
         plan.left_out = SLI_LEAVE_OUT_SMALL;
-    else if (!r->said && levels.soft)
+    else if (!r->said && levels.soft && !page.has_lines && !(page.threshold > 0))
         plan.left_out = SLI_LEAVE_OUT_LETTERS;
     plan.threshold = given ? r->options->threshold : levels.threshold;
     SL_TRY(sli_image_add_walls(r->context, &r->image, &plan, map, &solid, &small));
     note_taken(r, &plan, solid, map->wall_count, levels.faint && !given);
-    note_page(r);
+    note_page(r, &page);
     note_doubts(r, &levels, solid, &small, large);
     strcpy(map->unit, "px");
     map->entrance_may_be_wide = true;

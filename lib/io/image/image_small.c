@@ -68,7 +68,7 @@ static bool is_small(const sli_piece *piece, size_t most) {
 
 /// Marks the small pieces that are letters.
 static sl_status find_letters(sl_context *context, run_list *list, size_t most) {
-    SL_ARRAY(sli_piece *) small = {NULL};
+    SL_ARRAY(sli_piece *) small = {0};
     sl_status status = SL_OK;
     for (size_t i = 0; status == SL_OK && i < list->runs.count; i++) {
         if (list->runs.items[i].piece != i || !is_small(&list->pieces[i], most)) continue;
