@@ -35,6 +35,9 @@
 /// How much smaller a circle is that a wall clearly goes into.
 #define CLEARLY (1 + 0x1p-20)
 
+/// With more places than this, those that only look narrow would cost seconds.
+enum { CROWDED = 1 << 13 };
+
 /// Beyond this, triangulating takes minutes, and lines that dense are no walls of rooms.
 enum { MOST_CROSSINGS = 1 << 20 };
 
@@ -57,6 +60,7 @@ typedef struct finder {
     sli_planar walls;
     sli_triangulation t; ///< of the walls
     sli_box_tree boxes;  ///< of the edges of `walls`
+    bool crowded;        ///< so many places come up that each is looked at
     SL_ARRAY(step) steps;
     SL_ARRAY(foot) feet;
     sli_channels *out;
@@ -108,9 +112,10 @@ static void look_at_wall(void *user, uint32_t edge) {
     if (sli_away_from(wall.a, wall.b, c->middle) < c->radius) c->radius = 0;
 }
 
-/// Whether a wall goes through the circle over a pair of places. Where it merely touches it, but
-/// for a rounding, it does not.
+/// Whether a wall goes through the circle over a pair of places, in a crowded plan. Where it merely
+/// touches it, but for a rounding, it does not.
 static bool is_barred(const finder *f, sl_segment at) {
+    if (!f->crowded) return false;
     circle c = {
         f, {at.a.x / 2 + at.b.x / 2, at.a.y / 2 + at.b.y / 2}, apart(at.a, at.b) / 2 / CLEARLY};
     sli_box_tree_near(&f->boxes, c.middle, &c.radius, look_at_wall, &c);
@@ -335,6 +340,18 @@ static sl_status make_boxes(finder *f) {
     return status;
 }
 
+/// Finds ends and feet; once more, and stricter, where there are too many.
+static sl_status find_places(finder *f) {
+    SL_TRY(find_between_ends(f));
+    SL_TRY(find_feet(f));
+    if (f->out->items.count <= CROWDED) return SL_OK;
+    f->crowded = true;
+    f->out->items.count = f->feet.count = 0;
+    SL_TRY(make_boxes(f));
+    SL_TRY(find_between_ends(f));
+    return find_feet(f);
+}
+
 static sl_status find(finder *f, const sl_map *map, sli_mesh_lines *lines) {
     const char *source = sli_map_name(map);
     const sl_box bounds = sl_map_bounds(map);
@@ -346,9 +363,7 @@ static sl_status find(finder *f, const sl_map *map, sli_mesh_lines *lines) {
     SL_TRY(sli_planar_make(f->context, source, lines->items.items, lines->items.count, weld,
                            &f->walls));
     SL_TRY(sli_triangulate(f->context, &f->walls, &f->out->box, &f->t));
-    SL_TRY(make_boxes(f));
-    SL_TRY(find_between_ends(f));
-    SL_TRY(find_feet(f));
+    SL_TRY(find_places(f));
     return triangulate_again(f, source, weld);
 }
 

@@ -25,11 +25,11 @@ typedef struct sli_channels {
 #define SLI_FREE UINT32_MAX
 #define SLI_WALL (UINT32_MAX - 1)
 
-/// Lists all channels up to the width `most` of a map whose walls are clean, and those whose circle
-/// a wall goes into by less than a millionth. Shut or open, doors are walls here, and so are
-/// entrances that are known (sl_glass.entrance). Walls are cut at feet. Time about O(n log n) where
-/// few walls lie within `most` of each other. SL_UNSUPPORTED where walls or channels cross a
-/// million times.
+/// Lists all channels up to the width `most` of a map whose walls are clean. Where there are up to
+/// some thousands, other places that are as narrow may be among them. Shut or open, doors are walls
+/// here, and so are entrances that are known (sl_glass.entrance). Walls are cut at feet. Time about
+/// O(n log n) where few walls lie within `most` of each other. SL_UNSUPPORTED where walls or
+/// channels cross a million times.
 sl_status sli_channels_make(sl_context *context, const sl_map *map, double most, sli_channels *out);
 void sli_channels_destroy(sl_context *context, sli_channels *channels); ///< and zeroes it
 
