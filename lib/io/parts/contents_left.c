@@ -97,10 +97,12 @@ static void take_glass(sli_choice *c, const sli_left_out *left) {
         const sli_group_run *run = &c->contents->runs.items[i];
         for (size_t k = run->first; k < run->end; k++) {
             if (!sl_bits_has(left->glass, k)) continue;
+            sli_group *group = &c->contents->groups.items[run->group];
             c->means[k] = SLI_MEANS_WINDOW;
-            c->contents->groups.items[run->group].glazed = true;
+            group->glazed = true;
             if (c->by_looks) c->contents->looks.items.items[run->look].glazed = true;
             c->kept++;
+            group->shown += c->map->walls[k].line != line;
             c->shown += c->map->walls[k].line != line;
             line = c->map->walls[k].line;
         }
@@ -146,8 +148,10 @@ static void take_kind(sli_choice *c, const drawn *d, uint32_t kind) {
     if (c->by_looks) {
         c->contents->looks.items.items[kind - 1].taken = true;
     } else {
-        c->contents->groups.items[kind - 1].means = SLI_MEANS_WALL;
-        c->contents->groups.items[kind - 1].taken = true;
+        sli_group *group = &c->contents->groups.items[kind - 1];
+        group->means = SLI_MEANS_WALL;
+        group->taken = true;
+        c->shown -= group->shown; // all shapes of what is taken count
     }
 }
 
