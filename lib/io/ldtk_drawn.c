@@ -450,12 +450,12 @@ sl_status sli_ldtk_show_example(const sli_ldtk *reader, char text[SLI_LDTK_EXAMP
     }
     if (reader->marks)
         snprintf(text, SLI_LDTK_EXAMPLE,
-                 "; to take the %zu entities '%.40s' as solid: sightline check '%.300s' --map "
-                 "'%.40s' --layers '%.80s' -o map.png",
+                 "; to take the %zu entities '%.80s' as solid: sightline check '%.300s' --map "
+                 "'%.80s' --layers '%.80s' -o map.png",
                  reader->marks, reader->mark, reader->name, reader->taken, reader->mark);
     else if (empty || best)
         snprintf(text, SLI_LDTK_EXAMPLE,
-                 "; %s: sightline check '%.300s' --map '%.40s' --layers '%.80s%s' -o map.png",
+                 "; %s: sightline check '%.300s' --map '%.80s' --layers '%.80s%s' -o map.png",
                  empty          ? "to take squares without tiles as solid"
                  : most < 2     ? "perhaps, if a look shows so"
                  : *best->asked ? "to take these tiles of one as solid"
@@ -466,7 +466,7 @@ sl_status sli_ldtk_show_example(const sli_ldtk *reader, char text[SLI_LDTK_EXAMP
                             : best->asked);
     else
         snprintf(text, SLI_LDTK_EXAMPLE,
-                 "; which tiles of '%.40s' are solid, only its picture shows: tiles of a tileset "
+                 "; which tiles of '%.80s' are solid, only its picture shows: tiles of a tileset "
                  "are counted from 0, row by row",
                  reader->drawn.count ? reader->drawn.items[0].name : "");
     return SL_OK;
