@@ -103,11 +103,12 @@ static void note_doubts(const reader *r, const sli_image_levels *levels, size_t 
                 "--threshold %g",
                 r->name, levels->lost, words[r->solid], levels->lost_level, levels->lost_from);
     if (small->letters)
-        sl_note(r->context,
-                "%s: %zu small piece%s in rows %s left out as lettering; --layers %s%s takes %s too",
-                r->name, small->letters, small->letters == 1 ? "" : "s",
-                small->letters == 1 ? "is" : "are", r->before, layer_names[r->solid],
-                small->letters == 1 ? "it" : "them");
+        sl_note(
+            r->context,
+            "%s: %zu small piece%s in rows %s left out as lettering; --layers %s%s takes %s too",
+            r->name, small->letters, small->letters == 1 ? "" : "s",
+            small->letters == 1 ? "is" : "are", r->before, layer_names[r->solid],
+            small->letters == 1 ? "it" : "them");
     if (small->count)
         sl_note(r->context,
                 "%s: %zu small piece%s of up to %zu x %zu pixels %s nothing (lettering, symbols, "

@@ -38,8 +38,8 @@ sl_status sli_left_out_make(sli_left_out *left, bool *fits);
 void sli_left_out_destroy(sli_left_out *left);
 
 /// Finds glass: two lines or more side by side, from the end of a wall to the end of another one in
-/// line with it, with nothing in front of one side. Time O(n log n), and walls x gaps. None where very
-/// many lines are near each other.
+/// line with it, with nothing in front of one side. Time O(n log n), and walls x gaps. None where
+/// very many lines are near each other.
 sl_status sli_left_out_glass(sli_left_out *left);
 /// Counts the lines of a kind that are walls by where they are, if much of it is: else 0. Time
 /// O(n log n) where few lines are near each other.
