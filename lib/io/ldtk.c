@@ -150,7 +150,7 @@ static void tell_values(const sli_ldtk *reader, const sli_ldtk_settled *as) {
             reader->context,
             "%s: a start stands on the only value, which has no name: it is taken as floor, and "
             "empty cells as solid; if it is what is solid: sightline check '%.300s' --map "
-            "'%.40s' --layers '%.40s' -o map.png",
+            "'%.80s' --layers '%.80s' -o map.png",
             reader->name, reader->name, reader->taken, reader->asked);
     if (reader->options->layers || !(told->named || several)) return;
     add_list(text, sizeof text,
@@ -185,7 +185,7 @@ static void tell_bare(const sli_ldtk *reader, const sli_ldtk_settled *as) {
     const char *numbers = reader->told.numbers;
     char next[SLI_LDTK_EXAMPLE];
     snprintf(next, sizeof next,
-             "sightline check '%.300s' --map '%.40s' --layers '%.40s:%s%s%s' -o "
+             "sightline check '%.300s' --map '%.80s' --layers '%.80s:%s%s%s' -o "
              "map.png",
              reader->name, reader->taken, reader->asked, as->bare_solid ? "" : "0",
              !as->bare_solid && *numbers ? "+" : "", numbers);
@@ -213,7 +213,7 @@ static void tell_guess(const sli_ldtk *reader) {
                  reader->stood_of, tiles ? "where there is none" : "on tiles");
     sl_note(reader->context,
             "%s: nothing in it says what is solid: %s of layer '%s' are taken (%s); if it is the "
-            "other way round: sightline check '%.300s' --map '%.40s' --layers '%.40s' -o map.png",
+            "other way round: sightline check '%.300s' --map '%.80s' --layers '%.80s' -o map.png",
             reader->name, tiles ? "the tiles" : "the squares without tiles", layer, why,
             reader->name, reader->taken, tiles ? "void" : layer);
 }
@@ -277,7 +277,7 @@ static sl_status give_account(sli_ldtk *reader, const sl_map *map, const sli_ldt
 
 /// SL_BAD_INPUT where the level has nothing that says what is solid.
 static sl_status check_any(sli_ldtk *reader, bool unsure) {
-    char next[900] = "; it has no tiles", example[SLI_LDTK_EXAMPLE];
+    char next[1200] = "; it has no tiles", example[SLI_LDTK_EXAMPLE];
     const bool none = !reader->layers && !reader->tile_layers && !reader->walls.count;
     if (none && (reader->drawn.count || reader->marks)) {
         SL_TRY(sli_ldtk_show_example(reader, example));
@@ -294,7 +294,7 @@ static sl_status check_any(sli_ldtk *reader, bool unsure) {
     if (unsure)
         return sl_fail_at(reader->context, reader->name, 0,
                           "the values %s may be walls or open ground; if they are walls: sightline "
-                          "check '%.300s' --map '%.40s' --layers '%.40s' -o map.png%s%s%s%s%s",
+                          "check '%.300s' --map '%.80s' --layers '%.80s' -o map.png%s%s%s%s%s",
                           reader->told.ground.text, reader->name, reader->taken, reader->asked,
                           *numbers ? "; if they are open, with --layers '" : "",
                           *numbers ? reader->asked : "", *numbers ? ":" : "", numbers,
@@ -304,15 +304,15 @@ static sl_status check_any(sli_ldtk *reader, bool unsure) {
 
 /// SL_BAD_INPUT where all is solid: nothing is left to see.
 static sl_status check_walls(sli_ldtk *reader, const sl_map *map) {
-    char next[600] = "";
+    char next[700] = "";
     if (map->wall_count || sl_map_partial_walls(map)) return SL_OK;
     const sli_ldtk_told *told = &reader->told;
     const bool several = strchr(told->solid.text, ',') || *told->stands.text;
     const char *numbers = *told->numbers ? told->numbers : told->others;
     if (reader->layers && several)
         snprintf(next, sizeof next,
-                 "; to take values by their numbers: sightline check '%.300s' --map '%.40s' "
-                 "--layers '%.40s:%.*s' -o map.png",
+                 "; to take values by their numbers: sightline check '%.300s' --map '%.80s' "
+                 "--layers '%.80s:%.*s' -o map.png",
                  reader->name, reader->taken, reader->asked, (int)strcspn(numbers, "+"), numbers);
     else if (!reader->layers)
         snprintf(next, sizeof next, "; give some by number; layers of tiles: %s",

@@ -173,7 +173,7 @@ sl_status sli_ldtk_keep_drawn(sli_ldtk *reader, const sli_json *layer, sli_ldtk_
 /// tile, if starts and entities tell. Takes these squares where they are asked for.
 sl_status sli_ldtk_settle_drawn(sli_ldtk *reader);
 void sli_ldtk_destroy_drawn(sli_ldtk *reader);
-enum { SLI_LDTK_EXAMPLE = 700 };
+enum { SLI_LDTK_EXAMPLE = 900 };
 /// "; to take ...: sightline check ...": a command that takes what is likely to be solid; or why
 /// there is none.
 sl_status sli_ldtk_show_example(const sli_ldtk *reader, char text[SLI_LDTK_EXAMPLE]);

@@ -386,15 +386,22 @@ static bool is_stood_on(const sli_ldtk *reader, const sli_ldtk_frame *of, size_t
     return false;
 }
 
-/// The tiles of a layer but those in which somebody has sunk, as ":17+33"; "" where there are none.
-/// Such tiles are tufts of grass on the ground.
+static bool is_among(const uint32_t *tiles, size_t count, uint32_t tile) {
+    bool found = false;
+    for (size_t i = 0; i < count; i++) found |= tiles[i] == tile;
+    return found;
+}
+
+/// The tiles of a layer but those in which somebody has sunk, as ":17+33"; "" where there are none,
+/// or more than eight. Such tiles are tufts of grass on the ground.
 static sl_status find_beneath(const sli_ldtk *reader, const sli_ldtk_drawn *drawn, char *text,
                               size_t size) {
     const sli_json layer = {.file = reader->root.file, .value = drawn->layer};
     const sli_json lists[2] = {sli_json_member(&layer, "gridTiles"),
                                sli_json_member(&layer, "autoLayerTiles")};
     sli_ldtk_frame of;
-    uint32_t *tiles, sunk[8];
+    uint32_t *tiles, sunk[9];
+    enum { MOST_SUNK = sizeof sunk / sizeof *sunk - 1 };
     size_t count, used = 0, square, most, at = 0;
     *text = '\0';
     SL_TRY(sli_ldtk_read_frame(&layer, drawn->at, &of));
@@ -403,20 +410,16 @@ static sl_status find_beneath(const sli_ldtk *reader, const sli_ldtk_drawn *draw
         for (size_t i = 0; i < json_array_size(lists[k].value); i++) {
             const sli_json tile = sli_json_item(&lists[k], i), id = sli_json_member(&tile, "t");
             const uint32_t number = (uint32_t)json_integer_value(id.value);
-            if (used == sizeof sunk / sizeof *sunk || !sli_ldtk_find_square(&tile, &of, &square) ||
-                !is_stood_on(reader, &of, square))
-                continue;
-            sunk[used++] = number;
+            if (used <= MOST_SUNK && !is_among(sunk, used, number) &&
+                sli_ldtk_find_square(&tile, &of, &square) && is_stood_on(reader, &of, square))
+                sunk[used++] = number;
         }
-    for (size_t i = 0; i < count; i++) {
-        bool own = false;
-        for (size_t k = 0; k < used; k++) own |= tiles[i] == sunk[k];
-        if (!own) tiles[at++] = tiles[i];
-    }
+    for (size_t i = 0; i < count; i++)
+        if (!is_among(sunk, used, tiles[i])) tiles[at++] = tiles[i];
     const sl_status status =
         sli_numbers_write(reader->context, tiles, at, false, &most, text + 1, size - 1);
     sl_free(reader->context, tiles);
-    *text = used && text[1] ? ':' : '\0';
+    *text = used && used <= MOST_SUNK && text[1] ? ':' : '\0';
     return status;
 }
 
@@ -447,12 +450,12 @@ sl_status sli_ldtk_show_example(const sli_ldtk *reader, char text[SLI_LDTK_EXAMP
     }
     if (reader->marks)
         snprintf(text, SLI_LDTK_EXAMPLE,
-                 "; to take the %zu entities '%.40s' as solid: sightline check '%.300s' --map "
-                 "'%.40s' --layers '%.80s' -o map.png",
+                 "; to take the %zu entities '%.80s' as solid: sightline check '%.300s' --map "
+                 "'%.80s' --layers '%.80s' -o map.png",
                  reader->marks, reader->mark, reader->name, reader->taken, reader->mark);
     else if (empty || best)
         snprintf(text, SLI_LDTK_EXAMPLE,
-                 "; %s: sightline check '%.300s' --map '%.40s' --layers '%.80s%s' -o map.png",
+                 "; %s: sightline check '%.300s' --map '%.80s' --layers '%.80s%s' -o map.png",
                  empty          ? "to take squares without tiles as solid"
                  : most < 2     ? "perhaps, if a look shows so"
                  : *best->asked ? "to take these tiles of one as solid"
@@ -463,7 +466,7 @@ sl_status sli_ldtk_show_example(const sli_ldtk *reader, char text[SLI_LDTK_EXAMP
                             : best->asked);
     else
         snprintf(text, SLI_LDTK_EXAMPLE,
-                 "; which tiles of '%.40s' are solid, only its picture shows: tiles of a tileset "
+                 "; which tiles of '%.80s' are solid, only its picture shows: tiles of a tileset "
                  "are counted from 0, row by row",
                  reader->drawn.count ? reader->drawn.items[0].name : "");
     return SL_OK;

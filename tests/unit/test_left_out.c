@@ -63,6 +63,21 @@ static void test_glass(void **state) {
                ROOM(WALL) WALL(0, -128, 320, -128), "passed over: 0");
 }
 
+/// Very many lines in a gap are not looked at.
+static void test_crowded(void **state) {
+    (void)state;
+    static const char room[] = HEAD ROOM(ON_WALLS), pane[] = PANES("0");
+    enum { PANES_IN_GAP = 2500 };
+    const size_t size = sizeof room + PANES_IN_GAP * (sizeof pane - 1) + sizeof TAIL;
+    char *text = malloc(size), *end = text;
+    assert_non_null(text);
+    end += snprintf(end, sizeof room, "%s", room);
+    for (int i = 0; i < PANES_IN_GAP; i++) end += snprintf(end, sizeof pane, "%s", pane);
+    snprintf(end, sizeof TAIL, "%s", TAIL);
+    assert_noted_of(sli_map_read_dxf, NULL, text, strlen(text), ROOM(WALL), "passed over: 0");
+    free(text);
+}
+
 /// Between columns, two lines may be the faces of a wall, and three are glass.
 static void test_columns(void **state) {
     (void)state;
@@ -99,6 +114,22 @@ static void test_looks(void **state) {
     sl_import_options options = sl_import_options_default();
     options.layers = "#888888 line 0.25=ignore";
     assert_noted_of(sli_map_read_svg, &options, plan, strlen(plan), walls, "give 12 walls");
+}
+
+/// Windows of a layer that is taken as walls, too, are counted once.
+static void test_glass_and_walls(void **state) {
+    (void)state;
+#define OPEN_ROOM(L)                                                                               \
+    L(128, 256, 0, 256)                                                                            \
+    L(0, 256, 0, 0)                                                                                \
+    L(128, 256, 128, 248)                                                                          \
+    L(320, 0, 320, 256) L(320, 256, 192, 256) L(192, 256, 192, 248) L(128, 160, 192, 160)
+#define PARTS(L)                                                                                   \
+    L(0, 0, 320, 0) L(96, 0, 96, 256) L(192, 0, 192, 160) L(192, 128, 320, 128) L(0, 96, 96, 96)
+#define ON_NEW(x0, y0, x1, y1) LINE("New", x0, y0, x1, y1)
+#define NEW_PANES(L)           L(128, 250, 192, 250) L(128, 252, 192, 252)
+    assert_dxf(OPEN_ROOM(ON_WALLS) NEW_PANES(ON_NEW) PARTS(ON_NEW), NULL,
+               OPEN_ROOM(WALL) PARTS(WALL) NEW_PANES(WINDOW), "14 entities give 14 walls");
 }
 
 /// Layers that part rooms are taken where it is in doubt what is inside; else they are named.
@@ -183,9 +214,10 @@ static void test_memory(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_glass),    cmocka_unit_test(test_columns),
-        cmocka_unit_test(test_looks),    cmocka_unit_test(test_chains),
-        cmocka_unit_test(test_no_walls), cmocka_unit_test(test_pairs),
+        cmocka_unit_test(test_glass),           cmocka_unit_test(test_crowded),
+        cmocka_unit_test(test_glass_and_walls), cmocka_unit_test(test_columns),
+        cmocka_unit_test(test_looks),           cmocka_unit_test(test_chains),
+        cmocka_unit_test(test_no_walls),        cmocka_unit_test(test_pairs),
         cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -13,17 +13,17 @@ sl_status sli_image_read_alpha(sl_context *context, const char *name, const char
 // --- walls
 
 /// What of the small pieces of solid that touch nothing is open.
-typedef enum sli_left_out {
+typedef enum sli_image_left_out {
     SLI_LEAVE_OUT_NONE,
     SLI_LEAVE_OUT_LETTERS,
     SLI_LEAVE_OUT_SMALL,
-} sli_left_out;
+} sli_image_left_out;
 
 /// How a picture is a plan.
 typedef struct sli_image_plan {
     double threshold; ///< a pixel is solid where its darkness, 0 .. 1, is at least this
     bool light;       ///< the light pixels are the dark ones
-    sli_left_out left_out;
+    sli_image_left_out left_out;
     bool solid_outside; ///< beyond the picture all is solid; else it is open
     double step;        ///< the size of a pixel
     sl_point origin;    ///< of the lower left pixel's lower left corner
@@ -43,7 +43,7 @@ sl_status sli_image_add_walls(sl_context *context, const sl_image *image,
                               sli_image_small *small);
 
 /// Looks for small pieces in a grid of rows of one length; what is left out becomes open ground.
-sl_status sli_image_find_small(sl_context *context, sli_grid *grid, sli_left_out left_out,
+sl_status sli_image_find_small(sl_context *context, sli_grid *grid, sli_image_left_out left_out,
                                sli_image_small *out);
 
 /// As sli_map_read_image(); `before` stands before the names of layers in messages.

@@ -80,7 +80,7 @@ static sl_status find_letters(sl_context *context, run_list *list, size_t most) 
     return status;
 }
 
-static void take_small(run_list *list, sli_grid *grid, size_t most, sli_left_out left_out,
+static void take_small(run_list *list, sli_grid *grid, size_t most, sli_image_left_out left_out,
                        sli_image_small *out) {
     for (size_t i = 0; i < list->runs.count; i++) {
         const run *part = &list->runs.items[i];
@@ -110,7 +110,7 @@ static size_t longer_side(const run_list *list) {
     return wide > high ? wide : high;
 }
 
-sl_status sli_image_find_small(sl_context *context, sli_grid *grid, sli_left_out left_out,
+sl_status sli_image_find_small(sl_context *context, sli_grid *grid, sli_image_left_out left_out,
                                sli_image_small *out) {
     enum { SHARE = 20, LEAST = 3 }; // of the drawing's longer side; pixels that a letter needs
     run_list list = {.pieces = NULL};

@@ -26,7 +26,8 @@ typedef struct sli_group {
     double long_length, length_left; ///< of these; of all of its walls that no symbol has
     double finest;                   ///< unit of its coordinates, as sli_pen has it
     bool taken;
-    bool glazed; ///< some of its lines are windows, though it is not taken
+    bool glazed;  ///< some of its lines are windows, though it is not taken
+    size_t shown; ///< shapes of these lines
 } sli_group;
 
 /// Walls of a group, one behind another.

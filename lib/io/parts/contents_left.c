@@ -12,8 +12,8 @@
 
 #include <math.h>
 
-/// With more walls it is not tried what is inside.
-enum { MOST_TRIED = 20000 };
+/// With more walls it is not tried what is inside: at once, and in all tries.
+enum { MOST_TRIED = 20000, MOST_IN_ALL = 200000 };
 
 // --- what is looked at
 
@@ -24,6 +24,8 @@ typedef struct drawn {
     double *pens;
     sl_segment *doors;
     size_t door_count;
+    bool looked, plain; ///< whether what is inside is plain by the walls that are taken
+    size_t tried;       ///< walls, in all tries of what is inside
 } drawn;
 
 /// The name of a kind of shapes that are left out, as --layers takes it.
@@ -97,10 +99,12 @@ static void take_glass(sli_choice *c, const sli_left_out *left) {
         const sli_group_run *run = &c->contents->runs.items[i];
         for (size_t k = run->first; k < run->end; k++) {
             if (!sl_bits_has(left->glass, k)) continue;
+            sli_group *group = &c->contents->groups.items[run->group];
             c->means[k] = SLI_MEANS_WINDOW;
-            c->contents->groups.items[run->group].glazed = true;
+            group->glazed = true;
             if (c->by_looks) c->contents->looks.items.items[run->look].glazed = true;
             c->kept++;
+            group->shown += c->map->walls[k].line != line;
             c->shown += c->map->walls[k].line != line;
             line = c->map->walls[k].line;
         }
@@ -109,7 +113,7 @@ static void take_glass(sli_choice *c, const sli_left_out *left) {
 
 /// Whether what is inside is plain by the walls that are taken, and by those of a kind, too; 0 for
 /// none.
-static sl_status is_plain(const sli_choice *c, const drawn *d, uint32_t with, bool *plain) {
+static sl_status is_plain(const sli_choice *c, drawn *d, uint32_t with, bool *plain) {
     sl_context *context = c->contents->context;
     const size_t count = c->map->wall_count;
     sl_map map = {.entrance_may_be_wide = true};
@@ -123,7 +127,10 @@ static sl_status is_plain(const sli_choice *c, const drawn *d, uint32_t with, bo
     memcpy(map.unit, c->map->unit, sizeof map.unit);
     sli_plan_unit_entrance(&map, sli_choice_door(c), c->symbols.swings.count);
     *plain = false;
-    if (status == SL_OK && taken <= MOST_TRIED) status = sli_plan_inside(context, &map, plain);
+    if (status == SL_OK && taken <= MOST_TRIED && d->tried + taken <= MOST_IN_ALL) {
+        d->tried += taken;
+        status = sli_plan_inside(context, &map, plain);
+    }
     sl_map_destroy(context, &map);
     sl_free(context, walls);
     return status;
@@ -146,8 +153,10 @@ static void take_kind(sli_choice *c, const drawn *d, uint32_t kind) {
     if (c->by_looks) {
         c->contents->looks.items.items[kind - 1].taken = true;
     } else {
-        c->contents->groups.items[kind - 1].means = SLI_MEANS_WALL;
-        c->contents->groups.items[kind - 1].taken = true;
+        sli_group *group = &c->contents->groups.items[kind - 1];
+        group->means = SLI_MEANS_WALL;
+        group->taken = true;
+        c->shown -= group->shown; // all shapes of what is taken count
     }
 }
 
@@ -166,15 +175,17 @@ static bool may_be_walls(const sli_choice *c, uint32_t kind) {
 /// Looks for walls of one kind.
 static sl_status look_for_walls(sli_choice *c, sli_left_out *left, drawn *d, uint32_t kind) {
     sl_context *context = c->contents->context;
-    bool before = true, with = false;
+    bool with = false;
     size_t count;
     SL_TRY(sli_left_out_walls(left, kind, &count));
     if (!count) return SL_OK;
-    SL_TRY(is_plain(c, d, 0, &before));
-    if (!before) SL_TRY(is_plain(c, d, kind, &with));
+    if (!d->looked) SL_TRY(is_plain(c, d, 0, &d->plain));
+    d->looked = true;
+    if (!d->plain) SL_TRY(is_plain(c, d, kind, &with));
     SL_TRY(SL_ARRAY_ROOM(context, &c->left, 1));
     c->left.items[c->left.count++] = (sli_left_kind){kind, count, with};
     if (with) take_kind(c, d, kind);
+    d->plain |= with;
     return SL_OK;
 }
 

@@ -12,9 +12,11 @@
 #include "io/parts/left_out.h"
 
 #include <stdlib.h>
+#include <string.h>
 
-/// More lines are not looked at; so much work goes into views from gaps.
-enum { MOST_LINES = 100000, MOST_VIEWS = 200000000 };
+/// More lines are not looked at; so much work goes into lines near others, and into views from
+/// gaps.
+enum { MOST_LINES = 100000, MOST_NEAR = 1 << 25, MOST_VIEWS = 200000000 };
 /// How thick walls are at most, and how wide gaps are, in metres and as shares of the drawing.
 static const double THICK = 0.7, LEAST = 0.25, MOST = 8;
 static const double THICK_SHARE = 1.0 / 25, LEAST_SHARE = 1.0 / 100, MOST_SHARE = 1.0 / 3;
@@ -51,6 +53,13 @@ void sli_left_out_destroy(sli_left_out *left) {
     sli_wall_index_destroy(left->context, &left->index);
     sl_free(left->context, left->glass);
     left->glass = NULL;
+}
+
+/// Puts the lines near a line into left->index.near, and counts them.
+static sl_status find_near(sli_left_out *left, sl_point a, sl_point b, double reach) {
+    SL_TRY(sli_walls_near(left->context, &left->index, (sl_segment){a, b}, reach));
+    left->near += left->index.near.count;
+    return SL_OK;
 }
 
 // --- jambs
@@ -104,7 +113,7 @@ static bool is_in_line(const sli_left_out *left, uint32_t number, const line_end
 static sl_status find_jamb(sli_left_out *left, const line_end *e, uint32_t *jamb) {
     const double reach = fmax(e->slack, e->beyond) + left->widest;
     *jamb = UINT32_MAX;
-    SL_TRY(sli_walls_near(left->context, &left->index, (sl_segment){e->at, e->at}, reach));
+    SL_TRY(find_near(left, e->at, e->at, reach));
     for (size_t k = 0; k < left->index.near.count; k++) {
         const uint32_t i = left->index.near.items[k];
         const sl_wall *wall = &left->map->walls[i];
@@ -116,7 +125,7 @@ static sl_status find_jamb(sli_left_out *left, const line_end *e, uint32_t *jamb
 
 /// Finds the lines from jamb to jamb.
 static sl_status find_panes(sli_left_out *left, pane *panes, size_t *count) {
-    for (uint32_t i = 0; i < (uint32_t)left->map->wall_count; i++) {
+    for (uint32_t i = 0; i < (uint32_t)left->map->wall_count && left->near <= MOST_NEAR; i++) {
         const sl_wall *wall = &left->map->walls[i];
         const double length = sli_wall_length(wall);
         if (i % 1024 == 0) SL_TRY(sl_check_cancelled(left->context));
@@ -148,10 +157,10 @@ static sl_status join_panes(sli_left_out *left, pane *panes, size_t count, uint3
     const double thick = sli_left_out_scaled(left, THICK, THICK_SHARE);
     for (uint32_t i = 0; i < (uint32_t)left->map->wall_count; i++) gaps[i] = UINT32_MAX;
     for (size_t i = 0; i < count; i++) gaps[panes[i].line] = panes[i].line;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count && left->near <= MOST_NEAR; i++) {
         const uint32_t line = panes[i].line;
         const sl_wall *wall = &left->map->walls[line];
-        SL_TRY(sli_walls_near(left->context, &left->index, (sl_segment){wall->a, wall->b}, thick));
+        SL_TRY(find_near(left, wall->a, wall->b, thick));
         for (size_t k = 0; k < left->index.near.count; k++) {
             const uint32_t j = left->index.near.items[k];
             const sl_wall *other = &left->map->walls[j];
@@ -174,16 +183,17 @@ static sl_point middle(const sl_wall *wall) {
     return (sl_point){wall->a.x / 2 + wall->b.x / 2, wall->a.y / 2 + wall->b.y / 2};
 }
 
-/// How many lines of a gap are side by side: the same one twice is one.
-static size_t count_apart(const sli_left_out *left, const pane *panes, size_t count) {
+/// How many lines of a gap are side by side, up to three: the same one twice is one.
+static size_t count_apart(sli_left_out *left, const pane *panes, size_t count) {
     size_t apart = 0;
-    for (size_t i = 0, k; i < count; i++) {
+    for (size_t i = 0, k; i < count && apart < 3; i++) {
         const sl_point at = middle(&left->map->walls[panes[i].line]);
         for (k = 0; k < i; k++) {
             const sl_wall *other = &left->map->walls[panes[k].line];
             if (sli_away_from(other->a, other->b, at) <= left->off) break;
         }
         apart += k == i;
+        left->near += k;
     }
     return apart;
 }
@@ -197,7 +207,7 @@ static sl_status find_body(sli_left_out *left, uint32_t jamb, const sl_wall *lin
     *has |= fabs(sli_dot(direction(across->a, across->b), direction(line->a, line->b))) > 0.5;
     for (int end = 0; end < 2 && !*has; end++) {
         const sl_point corner = end ? across->b : across->a;
-        SL_TRY(sli_left_out_near(left, corner));
+        SL_TRY(find_near(left, corner, corner, left->off + left->widest));
         for (size_t k = 0; k < left->index.near.count; k++) {
             const sl_wall *wall = &left->map->walls[left->index.near.items[k]];
             const double length = sli_wall_length(wall);
@@ -223,7 +233,7 @@ static sl_status find_wall_along(sli_left_out *left, const pane *p, bool *has) {
             fabs(sli_dot(direction(jamb->a, jamb->b), direction(line->a, line->b)));
         deep = fmax(deep, in_line > 0.5 ? 2 * left->pens[p->jambs[i]] : sli_wall_length(jamb));
     }
-    SL_TRY(sli_walls_near(left->context, &left->index, (sl_segment){line->a, line->b}, deep));
+    SL_TRY(find_near(left, line->a, line->b, deep));
     for (size_t k = 0; k < left->index.near.count; k++) {
         const uint32_t i = left->index.near.items[k];
         double away = 0;
@@ -243,10 +253,11 @@ static sl_status may_be_glass(sli_left_out *left, const pane *panes, size_t coun
     bool body = apart > 2 || left->thin, closed = false;
     *may = false;
     if (apart < 2) return SL_OK;
-    for (size_t i = 0; i < 2 * count && !body; i++)
+    for (size_t i = 0; i < 2 * count && !body && left->near <= MOST_NEAR; i++)
         SL_TRY(find_body(left, panes[i / 2].jambs[i % 2], line, &body));
-    for (size_t i = 0; i < count && !closed; i++) SL_TRY(find_wall_along(left, &panes[i], &closed));
-    *may = body && !closed;
+    for (size_t i = 0; i < count && !closed && left->near <= MOST_NEAR; i++)
+        SL_TRY(find_wall_along(left, &panes[i], &closed));
+    *may = body && !closed && left->near <= MOST_NEAR;
     return SL_OK;
 }
 
@@ -298,7 +309,7 @@ sl_status sli_left_out_glass(sli_left_out *left) {
     sl_status status = panes && gaps ? find_panes(left, panes, &count) : SL_NO_MEMORY;
     if (status == SL_OK) status = join_panes(left, panes, count, gaps);
     if (status == SL_OK && count) qsort(panes, count, sizeof *panes, compare_panes);
-    for (size_t i = 0, end; status == SL_OK && i < count; i = end) {
+    for (size_t i = 0, end; status == SL_OK && i < count && left->near <= MOST_NEAR; i = end) {
         const sl_wall *line = &left->map->walls[panes[i].line];
         for (end = i + 1; end < count && panes[end].gap == panes[i].gap;) end++;
         bool may;
@@ -309,6 +320,10 @@ sl_status sli_left_out_glass(sli_left_out *left) {
         if (!is_outer(left, line)) continue;
         left->gaps++;
         for (size_t k = i; k < end; k++) sl_bits_add(left->glass, panes[k].line);
+    }
+    if (left->near > MOST_NEAR) {
+        left->gaps = 0;
+        memset(left->glass, 0, sl_bits_words(lines) * sizeof *left->glass);
     }
     for (size_t i = 0; status == SL_OK && i < lines; i++)
         if (sl_bits_has(left->glass, i)) sl_bits_add(left->walls, i);

@@ -29,6 +29,7 @@ typedef struct sli_left_out {
     double size;   ///< the longer side of the walls that are taken
     double off;    ///< how far apart lines may be that meet
     double widest; ///< of the pens
+    size_t near;   ///< lines that were near others, of the search for glass
 } sli_left_out;
 
 /// Makes the index, and measures. Destroy it also on failure. `*fits`: there are walls, and not too
@@ -37,7 +38,8 @@ sl_status sli_left_out_make(sli_left_out *left, bool *fits);
 void sli_left_out_destroy(sli_left_out *left);
 
 /// Finds glass: two lines or more side by side, from the end of a wall to the end of another one in
-/// line with it, with nothing in front of one side. Time O(n log n), and walls x gaps.
+/// line with it, with nothing in front of one side. Time O(n log n), and walls x gaps. None where
+/// very many lines are near each other.
 sl_status sli_left_out_glass(sli_left_out *left);
 /// Counts the lines of a kind that are walls by where they are, if much of it is: else 0. Time
 /// O(n log n) where few lines are near each other.

@@ -15,6 +15,8 @@
 /// many may touch it.
 #define FRAME 0.01
 enum { LEAST_FRAMED = 8, MOST_TITLES = 1 };
+/// More boxes as large as the page are no frames: each is held against all that is drawn.
+enum { MOST_FRAMES = 16 };
 
 static sl_box box_of(const sl_map *map, const sli_group_run *run) {
     sl_box box = sli_box_around(map->walls[run->first].a, map->walls[run->first].a);
@@ -91,16 +93,22 @@ static bool holds_plan(const sli_svg *s, const sl_box *frame) {
 /// Passes over frames of the page that lines draw, and whose names say nothing.
 static sl_status settle_frame(sli_svg *s) {
     static const char name[] = "frame of the page";
+    const sli_group_run *runs = s->contents.runs.items;
+    size_t frames[MOST_FRAMES], count = 0;
     uint32_t group;
     for (size_t i = 0; s->contents.has_looks && i < s->contents.runs.count; i++) {
-        const sli_group_run *run = &s->contents.runs.items[i];
-        const sl_box box = box_of(s->pen.map, run);
-        if (!s->contents.looks.items.items[run->look].ink.line || !is_frame(s->pen.map, run) ||
-            !holds_plan(s, &box) ||
-            sli_contents_means(&s->contents, run->group) != SLI_MEANS_NOTHING)
+        if (!s->contents.looks.items.items[runs[i].look].ink.line ||
+            !is_frame(s->pen.map, &runs[i]) ||
+            sli_contents_means(&s->contents, runs[i].group) != SLI_MEANS_NOTHING)
             continue;
+        if (count == MOST_FRAMES) return SL_OK;
+        frames[count++] = i;
+    }
+    for (size_t i = 0; i < count; i++) {
+        const sl_box box = box_of(s->pen.map, &runs[frames[i]]);
+        if (!holds_plan(s, &box)) continue;
         SL_TRY(sli_contents_group(&s->contents, (sli_word){name, sizeof name - 1}, &group));
-        sli_contents_move(&s->contents, i, group);
+        sli_contents_move(&s->contents, frames[i], group);
     }
     return SL_OK;
 }

@@ -440,6 +440,13 @@ sl_status sli_tiled_say_example(const sli_tiled_reader *reader, sli_tiled_exampl
     return SL_OK;
 }
 
+/// Whether a layer without a name has something.
+static bool has_nameless(const sli_tiled_reader *reader) {
+    for (size_t i = 0; i < reader->seen.count; i++)
+        if (reader->seen.items[i].count && !*reader->seen.items[i].name) return true;
+    return false;
+}
+
 sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why) {
     const char *file = reader->map->file->name;
     sli_tiled_example example;
@@ -449,6 +456,8 @@ sl_status sli_tiled_fail_unsaid(const sli_tiled_reader *reader, const char *why)
     char as[1400];
     SL_TRY(sli_tiled_find_example(reader, true, &example));
     if (!reader->seen.count) return sli_json_fail(reader->map, "%s; it has no layers", why);
+    if (!example.layer && has_nameless(reader))
+        return sli_json_fail(reader->map, "%s; its layers have no names: name them in Tiled", why);
     if (!example.layer) return sli_json_fail(reader->map, "%s; all its layers are empty", why);
     SL_TRY(sli_tiled_say_example(reader, example, as, sizeof as));
     return sl_fail_at(reader->context, file, sli_json_line(reader->map), "%s%s; layers: %s%s%s",

@@ -128,12 +128,14 @@ static void tell_little(const sli_tiled_reader *reader) {
             most = layer;
     }
     if (!solid || !most || most->count < 20 * solid) return;
-    const sli_shown name = sli_show((sli_word){most->name, strlen(most->name)});
+    char next[900];
+    write_command(reader, most, true, "", next, sizeof next);
     sl_note(reader->context,
             "%s: only %llu tile%s in layers named for walls: if layer '%s' (%llu tiles) is solid: "
-            "sightline check '%.300s' --layers '%s' -o map.png",
+            "%s",
             reader->map->file->name, (unsigned long long)solid, solid == 1 ? " is" : "s are",
-            name.text, (unsigned long long)most->count, reader->map->file->name, name.text);
+            sli_show((sli_word){most->name, strlen(most->name)}).text,
+            (unsigned long long)most->count, next);
 }
 
 /// What to type for the layer that is the most likely one, where little is taken; "" for none.
@@ -196,12 +198,13 @@ static void tell_ground(const sli_tiled_reader *reader) {
         if (layer->kind != SLI_GAME_GROUND || 4 * layer->count > layer->squares || !layer->solid ||
             10 * layer->solid > 9 * layer->count)
             continue;
-        const sli_shown name = sli_show((sli_word){layer->name, strlen(layer->name)});
+        char next[900];
+        write_command(reader, layer, true, "", next, sizeof next);
         sl_note(reader->context,
                 "%s: only %zu of the %llu tiles of layer '%s' say that they are solid: if all are: "
-                "sightline check '%.300s' --layers '%s' -o map.png",
-                reader->map->file->name, layer->solid, (unsigned long long)layer->count, name.text,
-                reader->map->file->name, name.text);
+                "%s",
+                reader->map->file->name, layer->solid, (unsigned long long)layer->count,
+                sli_show((sli_word){layer->name, strlen(layer->name)}).text, next);
     }
 }
 
