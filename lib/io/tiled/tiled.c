@@ -138,12 +138,12 @@ static sl_status find_place(const sli_tiled_reader *reader, const sli_json *laye
     }
     own->word = word_of_layer(reader, layer, own);
     own->tiles_decide = false;
-    own->said = 0;
+    own->said = own->denied = 0;
     const bool tiles = strcmp(sli_json_text_of(layer, "type"), "tilelayer") == 0;
     if (!tiles || own->word != SLI_TILED_SOLID || reader->by || map_names(reader, name) ||
-        sli_game_says_stops(name) || sli_tiled_word_of(layer, "class") != SLI_TILED_UNSAID)
+        sli_tiled_word_of(layer, "class") != SLI_TILED_UNSAID)
         return SL_OK;
-    return sli_tiled_ask_tiles(reader, layer, own);
+    return sli_tiled_ask_tiles(reader, layer, sli_game_says_stops(name), own);
 }
 
 /// What a file of our own says of the whole map.
@@ -186,7 +186,9 @@ static sl_status see_layer(sli_tiled_reader *reader, const sli_json *layer,
                          .objects = objects,
                          .moves = own->moves,
                          .kind = own->kind,
-                         .said = own->said};
+                         .tiles_decide = own->tiles_decide,
+                         .said = own->said,
+                         .denied = own->denied};
     return SL_OK;
 }
 
