@@ -511,6 +511,28 @@ static void test_doors_without_passage(void **state) {
 }
 
 /// Walls that are objects tell too, if they stand at two opposite sides of the door.
+/// A door in solid ground, or one that runs into it, is left out: no map is refused for it.
+static void test_doors_in_ground(void **state) {
+    (void)state;
+    const sl_import_options options = sl_import_options_default();
+    const char *const rooms = "#######\n#..#..#\n#.....#\n#..#..#\n#######";
+    // Turned a little, and longer than its opening; a line from within the edge of the map.
+    const char *text =
+        tmx_of(rooms, OBJECTS("<object name='door' x='27' y='12' width='2' height='16' "
+                              "rotation='5'/>"));
+    assert_things(sli_map_read_tmx, text, NULL, "");
+    assert_note(sli_map_read_tmx, text, &options, "left out: it runs into solid ground\n");
+    assert_tmx(rooms, OBJECTS(LINE("door", AT("4", "20"), "0,0 12,0")), "");
+    // Its passage is closed by a wall that is an entity.
+    text = ldtk_of(rooms,
+                   ENTITY("door", "24,16", "0,0", EIGHT, "") ", " ENTITY(
+                       "SolidBlock", "24,8", "0,0", "\"width\": 8, \"height\": 24", ""));
+    assert_things(sli_map_read_ldtk, text, NULL, "");
+    assert_note(sli_map_read_ldtk, text, &options,
+                "f: door 'door' at 28 20 in the file is left out: it runs into solid ground\n");
+    assert_ldtk(rooms, ENTITY("door", "24,16", "0,0", EIGHT, ""), "door door 28 16 28 24 open\n");
+}
+
 static void test_doors_between_shapes(void **state) {
     (void)state;
 #define SHAPES(door)                                                                               \
@@ -751,6 +773,7 @@ int main(void) {
         cmocka_unit_test(test_doors_on_solid_squares),
         cmocka_unit_test(test_notes_about_doors),
         cmocka_unit_test(test_doors_without_passage),
+        cmocka_unit_test(test_doors_in_ground),
         cmocka_unit_test(test_doors_between_shapes),
         cmocka_unit_test(test_double_doors),
         cmocka_unit_test(test_doors_drawn_twice),
