@@ -578,6 +578,11 @@ static void test_doors_drawn_twice(void **state) {
         "<object name='gate' " SIZED("24", "16", "8", "8") ">" BOOL("closed", "true") "</object>")
     assert_tmx("#######\n#..#..#\n#..X..#\n#..#..#\n#######", GATE, shut);
     assert_tmx("#######\n#..#..#\n#..D..#\n#..#..#\n#######", GATE, shut);
+    // A small object on the wall beside the tile is that door, too, and opens no wall.
+    assert_tmx("#######\n#..#..#\n#..X..#\n#..#..#\n#######",
+               OBJECTS("<object name='gate' " SIZED("27", "13", "2", "2") ">" BOOL(
+                   "closed", "true") "</object>"),
+               shut);
     // Where the object is no door, as behind it all is solid, the tile is none either.
     assert_tmx("#####\n#...#\n#...#\n##X##", OBJECTS(NAMED("door", SIZED("16", "24", "8", "8"))),
                "");
