@@ -97,6 +97,49 @@ static sl_status tell_said(const sli_tiled_reader *reader) {
     return SL_OK;
 }
 
+/// As sli_tiled_list_taken, but without this layer, or with it.
+static void list_taken_but(const sli_tiled_reader *reader, const sli_tiled_seen *changed,
+                           char *text, size_t size) {
+    size_t used = 0;
+    *text = '\0';
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (layer->taken == (layer == changed)) continue;
+        if (!sli_tiled_can_be_typed(layer->name) || used + strlen(layer->name) + 2 > size) {
+            *text = '\0';
+            return;
+        }
+        used += (size_t)snprintf(text + used, size - used, "%s%s", used ? "," : "", layer->name);
+    }
+}
+
+void sli_tiled_list_taken(const sli_tiled_reader *reader, char *text, size_t size) {
+    list_taken_but(reader, NULL, text, size);
+}
+
+/// Layers of tiles that are named for doors: their tiles are no doors by that, but walls where they
+/// say that they are solid, else open.
+static void tell_doors(const sli_tiled_reader *reader) {
+    for (size_t i = 0; i < reader->things.items.count; i++)
+        if (reader->things.items.items[i].of_tiles) return;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        char names[400];
+        if (layer->objects || !layer->count || !sli_says_door(layer->name)) continue;
+        list_taken_but(reader, layer, names, sizeof names);
+        if (!*names) continue;
+        sl_note(reader->context,
+                "%s: layer '%s' (%llu tile%s) is named for doors, and is taken as %s: if %s: "
+                "sightline check '%.300s' --layers '%s' -o map.png; tiles of the class 'door' are "
+                "doors",
+                reader->map->file->name,
+                sli_show((sli_word){layer->name, strlen(layer->name)}).text,
+                (unsigned long long)layer->count, layer->count == 1 ? "" : "s",
+                layer->taken ? "solid" : "open", layer->taken ? "it is open" : "it is solid",
+                reader->map->file->name, names);
+    }
+}
+
 /// The tiles of the layers that are taken.
 static uint64_t count_taken(const sli_tiled_reader *reader) {
     uint64_t count = 0;
@@ -295,20 +338,6 @@ static sl_status tell_weaker(const sli_tiled_reader *reader, const sli_tiled_lay
     return SL_OK;
 }
 
-void sli_tiled_list_taken(const sli_tiled_reader *reader, char *text, size_t size) {
-    size_t used = 0;
-    *text = '\0';
-    for (size_t i = 0; i < reader->seen.count; i++) {
-        const sli_tiled_seen *layer = &reader->seen.items[i];
-        if (!layer->taken) continue;
-        if (!sli_tiled_can_be_typed(layer->name) || used + strlen(layer->name) + 2 > size) {
-            *text = '\0';
-            return;
-        }
-        used += (size_t)snprintf(text + used, size - used, "%s%s", used ? "," : "", layer->name);
-    }
-}
-
 sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
     const sli_tiled_layer_text taken = sli_tiled_list_layers(reader, true),
                                others = sli_tiled_list_layers(reader, false);
@@ -326,6 +355,7 @@ sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
                 file,
                 sli_show((sli_word){reader->believed_not, strlen(reader->believed_not)}).text);
     if (!reader->by) SL_TRY(tell_said(reader));
+    if (!reader->by) tell_doors(reader);
     if (!reader->by) tell_little(reader);
     if (!reader->by) SL_TRY(tell_objects(reader));
     if (!reader->by) SL_TRY(tell_tiles(reader));
