@@ -524,9 +524,8 @@ static void test_doors_in_ground(void **state) {
     assert_note(sli_map_read_tmx, text, &options, "left out: it runs into solid ground\n");
     assert_tmx(rooms, OBJECTS(LINE("door", AT("4", "20"), "0,0 12,0")), "");
     // Its passage is closed by a wall that is an entity.
-    text = ldtk_of(rooms,
-                   ENTITY("door", "24,16", "0,0", EIGHT, "") ", " ENTITY(
-                       "SolidBlock", "24,8", "0,0", "\"width\": 8, \"height\": 24", ""));
+    text = ldtk_of(rooms, ENTITY("door", "24,16", "0,0", EIGHT, "") ", " ENTITY(
+                              "SolidBlock", "24,8", "0,0", "\"width\": 8, \"height\": 24", ""));
     assert_things(sli_map_read_ldtk, text, NULL, "");
     assert_note(sli_map_read_ldtk, text, &options,
                 "f: door 'door' at 28 20 in the file is left out: it runs into solid ground\n");
@@ -580,8 +579,8 @@ static void test_doors_drawn_twice(void **state) {
     assert_tmx("#######\n#..#..#\n#..D..#\n#..#..#\n#######", GATE, shut);
     // A small object on the wall beside the tile is that door, too, and opens no wall.
     assert_tmx("#######\n#..#..#\n#..X..#\n#..#..#\n#######",
-               OBJECTS("<object name='gate' " SIZED("27", "13", "2", "2") ">" BOOL(
-                   "closed", "true") "</object>"),
+               OBJECTS("<object name='gate' " SIZED("27", "13", "2",
+                                                    "2") ">" BOOL("closed", "true") "</object>"),
                shut);
     // Where the object is no door, as behind it all is solid, the tile is none either.
     assert_tmx("#####\n#...#\n#...#\n##X##", OBJECTS(NAMED("door", SIZED("16", "24", "8", "8"))),

@@ -244,10 +244,11 @@ static void test_tiles_over_names(void **state) {
             "2", "2", "4", "4") "</objectgroup></tile>") LAYER("walls", CSV("2,1,1,0,0,0"))),
         "wall 2 14 6 14\nwall 6 14 6 10\nwall 6 10 2 10\nwall 2 10 2 14\n" TWO_TILES);
     const char *stops = MAP(TILE_1_COLLIDES LAYER("collision", CSV("0,1,2,0,0,0")));
-    assert_noted_of(sli_map_read_tmx, NULL, stops, strlen(stops), TWO_TILES,
-                    "f: layer 'collision' is taken whole by its name, and only 1 of its 2 tiles says "
-                    "that it is solid; if no others are: sightline check 'f' --layers 'collision:1' "
-                    "-o map.png\n");
+    assert_noted_of(
+        sli_map_read_tmx, NULL, stops, strlen(stops), TWO_TILES,
+        "f: layer 'collision' is taken whole by its name, and only 1 of its 2 tiles says "
+        "that it is solid; if no others are: sightline check 'f' --layers 'collision:1' "
+        "-o map.png\n");
     const char *few = MAP(TILE_1_COLLIDES LAYER("walls", CSV("0,2,2,0,0,0"))
                               LAYER("Walls 2", CSV("1,2,2,0,0,0")));
     assert_noted_of(sli_map_read_tmx, NULL, few, strlen(few),
@@ -261,8 +262,9 @@ static void test_tiles_over_names(void **state) {
 static void test_tiles_deny_the_name(void **state) {
     (void)state;
 #define TILE_2_OPEN                                                                                \
-    SET_OF("<tile id='0'>" TRUE("collide") "</tile><tile id='1'><properties><property "            \
-           "name='collide' type='bool' value='false'/></properties></tile>")
+    SET_OF("<tile id='0'>" TRUE(                                                                   \
+        "collide") "</tile><tile id='1'><properties><property "                                    \
+                   "name='collide' type='bool' value='false'/></properties></tile>")
     const char *text = MAP(TILE_2_OPEN LAYER("Collision", CSV("2,1,1,2,2,2")));
     assert_noted_of(sli_map_read_tmx, NULL, text, strlen(text), TWO_TILES,
                     "f: layer 'Collision' is named for what is solid, but 4 of its 6 tiles say "
@@ -274,14 +276,14 @@ static void test_tiles_deny_the_name(void **state) {
 /// Tiles in a layer named for doors are walls or open ground; a note says which.
 static void test_layers_named_for_doors(void **state) {
     (void)state;
-    const char *open = MAP(TILE_1_COLLIDES LAYER("Walls", TILES)
-                               LAYER("Closed Doors", CSV("2,0,0,0,0,0")));
+    const char *open =
+        MAP(TILE_1_COLLIDES LAYER("Walls", TILES) LAYER("Closed Doors", CSV("2,0,0,0,0,0")));
     assert_noted_of(sli_map_read_tmx, NULL, open, strlen(open), TWO_TILES,
                     "f: layer 'Closed Doors' (1 tile) is named for doors, and is taken as open: if "
                     "it is solid: sightline check 'f' --layers 'Walls,Closed Doors' -o map.png; "
                     "tiles of the class 'door' are doors\n");
-    const char *solid = MAP(TILE_1_COLLIDES LAYER("Walls", CSV("0,2,0,0,0,0"))
-                                LAYER("Doors", CSV("0,0,1,0,0,0")));
+    const char *solid =
+        MAP(TILE_1_COLLIDES LAYER("Walls", CSV("0,2,0,0,0,0")) LAYER("Doors", CSV("0,0,1,0,0,0")));
     assert_noted_of(sli_map_read_tmx, NULL, solid, strlen(solid), TWO_TILES,
                     "f: layer 'Doors' (1 tile) is named for doors, and is taken as solid: if it is "
                     "open: sightline check 'f' --layers 'Walls' -o map.png; tiles of the class "

@@ -507,8 +507,7 @@ static void tell_doors(const sli_things *things, size_t open, size_t shut) {
 /// Whether a door has a place where it can stand.
 static bool stands(sli_things *things, const sl_map *map, sli_thing *door) {
     if (!place_in_open(things, map, door) || door->buried || !is_usable(door->at.a) ||
-        !is_usable(door->at.b) ||
-        (door->at.a.x == door->at.b.x && door->at.a.y == door->at.b.y))
+        !is_usable(door->at.b) || (door->at.a.x == door->at.b.x && door->at.a.y == door->at.b.y))
         return false;
     door->in_ground = runs_into_ground(things, map, &door->at);
     return !door->in_ground;

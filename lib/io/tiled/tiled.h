@@ -243,7 +243,7 @@ typedef struct sli_tiled_seen {
     size_t beside;       ///< solid tiles that are not taken, as the player goes over or under them
     sli_game_kind kind;  ///< by its name, else by that of its group
     uint64_t count, squares;
-    size_t solid; ///< of its tiles: those that say that they are solid
+    size_t solid;      ///< of its tiles: those that say that they are solid
     bool tiles_decide; ///< as sli_tiled_place has it,
     size_t said;       ///< and these
     size_t denied;

@@ -91,6 +91,8 @@ sl_status sli_tiled_ask_tiles(const sli_tiled_reader *reader, const sli_json *la
     }
     own->denied = count.open;
     if (!count.solid || count.solid + count.open == count.all || count.unknown) return SL_OK;
+    // A few tiles that say nothing in a layer named for collision are no contradiction.
+    if (stops && 10 * (count.solid + count.open) > 9 * count.all) return SL_OK;
     own->tiles_decide = !stops && 2 * count.solid >= count.all;
     own->said = count.solid;
     return SL_OK;
