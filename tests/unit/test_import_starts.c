@@ -589,6 +589,25 @@ static void test_doors_drawn_twice(void **state) {
                 ENTITY("gate", "24,16", "0,0", EIGHT, FIELD("shut", "true")), shut);
 }
 
+/// Solid tiles in a layer named for doors are doors, and shut if the name does not say otherwise. A
+/// mark beside one is the same door.
+static void test_layers_of_doors(void **state) {
+    (void)state;
+    const char *const rooms = "#######\n#..#..#\n#.....#\n#..#..#\n#######";
+#define DOORS(name)                                                                                \
+    "<tileset firstgid='3' tilewidth='8' tileheight='8'><tile id='0'>" BOOL(                       \
+        "collides", "true") "</tile></tileset><layer name='" name                                  \
+                            "' width='7' height='5'><data encoding='csv'>"                         \
+                            "0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,3,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0," \
+                            "0</data></layer>"
+    assert_tmx(rooms, DOORS("Doors"), "door Doors 28 16 28 24 shut\n");
+    assert_tmx(rooms, DOORS("open doors"), "door open_doors 28 16 28 24 open\n");
+    assert_tmx(rooms, DOORS("Closed Doors") OBJECTS(NAMED("gate", SIZED("27", "13", "2", "2"))),
+               "door gate 28 16 28 24 shut\n");
+    assert_tmx(rooms, DOORS("things"), "");
+#undef DOORS
+}
+
 static void test_names_of_doors(void **state) {
     (void)state;
     static const char plan[] = "#########\n#.......#\n#.#.#.#.#\n#.......#\n#########";
@@ -781,6 +800,7 @@ int main(void) {
         cmocka_unit_test(test_doors_between_shapes),
         cmocka_unit_test(test_double_doors),
         cmocka_unit_test(test_doors_drawn_twice),
+        cmocka_unit_test(test_layers_of_doors),
         cmocka_unit_test(test_names_of_doors),
         cmocka_unit_test(test_states_of_doors),
         cmocka_unit_test(test_doors_of_ldtk),

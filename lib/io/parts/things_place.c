@@ -268,6 +268,7 @@ static void join_marks(sli_things *things, sli_grid *grid) {
             mark->middle = tiles->middle;
             mark->u = tiles->u;
             mark->v = tiles->v;
+            mark->open &= tiles->open;
             break;
         }
     }

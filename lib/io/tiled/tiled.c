@@ -126,6 +126,8 @@ static sl_status find_place(const sli_tiled_reader *reader, const sli_json *laye
     own->beside |= sli_game_says_beside_player(name);
     const sli_game_kind kind = kind_of_layer(layer);
     if (kind != SLI_GAME_UNSAID) own->kind = kind;
+    const bool tiles = strcmp(sli_json_text_of(layer, "type"), "tilelayer") == 0;
+    own->doors = tiles && sli_says_door(name) ? name : NULL;
     SL_TRY(sli_tiled_read_stops(layer, &own->stops));
     if (reader->options->layers) {
         sli_word gids;
@@ -139,7 +141,6 @@ static sl_status find_place(const sli_tiled_reader *reader, const sli_json *laye
     own->word = word_of_layer(reader, layer, own);
     own->tiles_decide = false;
     own->said = own->denied = 0;
-    const bool tiles = strcmp(sli_json_text_of(layer, "type"), "tilelayer") == 0;
     if (!tiles || own->word != SLI_TILED_SOLID || reader->by || map_names(reader, name) ||
         sli_tiled_word_of(layer, "class") != SLI_TILED_UNSAID)
         return SL_OK;

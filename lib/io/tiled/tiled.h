@@ -315,6 +315,7 @@ typedef struct sli_tiled_place {
     size_t denied;      ///< and so many that they are open
     bool others;        ///< its objects are enemies, items, triggers
     bool beside;        ///< it is drawn below or above the player
+    const char *doors;  ///< the name of a layer of tiles that is named for doors; else NULL
     sli_word gids;      ///< the tiles that are asked for; of no length for all
     bool asked;
     uint32_t stops; ///< what walls of its objects stop; 0 where nothing is said

@@ -117,8 +117,8 @@ void sli_tiled_list_taken(const sli_tiled_reader *reader, char *text, size_t siz
     list_taken_but(reader, NULL, text, size);
 }
 
-/// Layers of tiles that are named for doors: their tiles are no doors by that, but walls where they
-/// say that they are solid, else open.
+/// Layers of tiles that are named for doors, with tiles that are none, as they do not say that they
+/// are solid.
 static void tell_doors(const sli_tiled_reader *reader) {
     for (size_t i = 0; i < reader->things.items.count; i++)
         if (reader->things.items.items[i].of_tiles) return;
