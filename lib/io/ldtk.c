@@ -231,7 +231,10 @@ static sl_status tell_doubts(sli_ldtk *reader, const sli_ldtk_settled *as) {
                                : "layers are told by their names and enums",
                 sli_name_list_cut(&reader->tile_names, 150), example);
     }
-    if (as->bare > 0.1) tell_bare(reader, as);
+    if (as->bare > 0.1)
+        tell_bare(reader, as);
+    else
+        sli_ldtk_note_outside(reader);
     return SL_OK;
 }
 

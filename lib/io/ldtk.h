@@ -178,6 +178,10 @@ enum { SLI_LDTK_EXAMPLE = 900 };
 /// there is none.
 sl_status sli_ldtk_show_example(const sli_ldtk *reader, char text[SLI_LDTK_EXAMPLE]);
 
+/// Tells how much of the open ground of a level lies about a building, and how it is left out
+/// (ldtk_outside.c).
+void sli_ldtk_note_outside(const sli_ldtk *reader);
+
 /// Which entities are walls.
 typedef enum sli_ldtk_walls {
     SLI_LDTK_STOPPING, ///< beside cells: those whose names say that they stop a player

@@ -511,6 +511,27 @@ static void test_doors_without_passage(void **state) {
 }
 
 /// Walls that are objects tell too, if they stand at two opposite sides of the door.
+/// A door in solid ground, or one that runs into it, is left out: no map is refused for it.
+static void test_doors_in_ground(void **state) {
+    (void)state;
+    const sl_import_options options = sl_import_options_default();
+    const char *const rooms = "#######\n#..#..#\n#.....#\n#..#..#\n#######";
+    // Turned a little, and longer than its opening; a line from within the edge of the map.
+    const char *text =
+        tmx_of(rooms, OBJECTS("<object name='door' x='27' y='12' width='2' height='16' "
+                              "rotation='5'/>"));
+    assert_things(sli_map_read_tmx, text, NULL, "");
+    assert_note(sli_map_read_tmx, text, &options, "left out: it runs into solid ground\n");
+    assert_tmx(rooms, OBJECTS(LINE("door", AT("4", "20"), "0,0 12,0")), "");
+    // Its passage is closed by a wall that is an entity.
+    text = ldtk_of(rooms, ENTITY("door", "24,16", "0,0", EIGHT, "") ", " ENTITY(
+                              "SolidBlock", "24,8", "0,0", "\"width\": 8, \"height\": 24", ""));
+    assert_things(sli_map_read_ldtk, text, NULL, "");
+    assert_note(sli_map_read_ldtk, text, &options,
+                "f: door 'door' at 28 20 in the file is left out: it runs into solid ground\n");
+    assert_ldtk(rooms, ENTITY("door", "24,16", "0,0", EIGHT, ""), "door door 28 16 28 24 open\n");
+}
+
 static void test_doors_between_shapes(void **state) {
     (void)state;
 #define SHAPES(door)                                                                               \
@@ -556,11 +577,35 @@ static void test_doors_drawn_twice(void **state) {
         "<object name='gate' " SIZED("24", "16", "8", "8") ">" BOOL("closed", "true") "</object>")
     assert_tmx("#######\n#..#..#\n#..X..#\n#..#..#\n#######", GATE, shut);
     assert_tmx("#######\n#..#..#\n#..D..#\n#..#..#\n#######", GATE, shut);
+    // A small object on the wall beside the tile is that door, too, and opens no wall.
+    assert_tmx("#######\n#..#..#\n#..X..#\n#..#..#\n#######",
+               OBJECTS("<object name='gate' " SIZED("27", "13", "2",
+                                                    "2") ">" BOOL("closed", "true") "</object>"),
+               shut);
     // Where the object is no door, as behind it all is solid, the tile is none either.
     assert_tmx("#####\n#...#\n#...#\n##X##", OBJECTS(NAMED("door", SIZED("16", "24", "8", "8"))),
                "");
     assert_ldtk("#######\n#..#..#\n#..D..#\n#..#..#\n#######",
                 ENTITY("gate", "24,16", "0,0", EIGHT, FIELD("shut", "true")), shut);
+}
+
+/// Solid tiles in a layer named for doors are doors, and shut if the name does not say otherwise. A
+/// mark beside one is the same door.
+static void test_layers_of_doors(void **state) {
+    (void)state;
+    const char *const rooms = "#######\n#..#..#\n#.....#\n#..#..#\n#######";
+#define DOORS(name)                                                                                \
+    "<tileset firstgid='3' tilewidth='8' tileheight='8'><tile id='0'>" BOOL(                       \
+        "collides", "true") "</tile></tileset><layer name='" name                                  \
+                            "' width='7' height='5'><data encoding='csv'>"                         \
+                            "0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,3,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0," \
+                            "0</data></layer>"
+    assert_tmx(rooms, DOORS("Doors"), "door Doors 28 16 28 24 shut\n");
+    assert_tmx(rooms, DOORS("open doors"), "door open_doors 28 16 28 24 open\n");
+    assert_tmx(rooms, DOORS("Closed Doors") OBJECTS(NAMED("gate", SIZED("27", "13", "2", "2"))),
+               "door gate 28 16 28 24 shut\n");
+    assert_tmx(rooms, DOORS("things"), "");
+#undef DOORS
 }
 
 static void test_names_of_doors(void **state) {
@@ -751,9 +796,11 @@ int main(void) {
         cmocka_unit_test(test_doors_on_solid_squares),
         cmocka_unit_test(test_notes_about_doors),
         cmocka_unit_test(test_doors_without_passage),
+        cmocka_unit_test(test_doors_in_ground),
         cmocka_unit_test(test_doors_between_shapes),
         cmocka_unit_test(test_double_doors),
         cmocka_unit_test(test_doors_drawn_twice),
+        cmocka_unit_test(test_layers_of_doors),
         cmocka_unit_test(test_names_of_doors),
         cmocka_unit_test(test_states_of_doors),
         cmocka_unit_test(test_doors_of_ldtk),

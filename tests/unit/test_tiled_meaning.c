@@ -243,7 +243,12 @@ static void test_tiles_over_names(void **state) {
         MAP(SET_OF("<tile id='0'>" TRUE("collides") "</tile><tile id='1'><objectgroup>" BOX(
             "2", "2", "4", "4") "</objectgroup></tile>") LAYER("walls", CSV("2,1,1,0,0,0"))),
         "wall 2 14 6 14\nwall 6 14 6 10\nwall 6 10 2 10\nwall 2 10 2 14\n" TWO_TILES);
-    assert_walls(MAP(TILE_1_COLLIDES LAYER("collision", CSV("0,1,2,0,0,0"))), TWO_TILES);
+    const char *stops = MAP(TILE_1_COLLIDES LAYER("collision", CSV("0,1,2,0,0,0")));
+    assert_noted_of(
+        sli_map_read_tmx, NULL, stops, strlen(stops), TWO_TILES,
+        "f: layer 'collision' is taken whole by its name, and only 1 of its 2 tiles says "
+        "that it is solid; if no others are: sightline check 'f' --layers 'collision:1' "
+        "-o map.png\n");
     const char *few = MAP(TILE_1_COLLIDES LAYER("walls", CSV("0,2,2,0,0,0"))
                               LAYER("Walls 2", CSV("1,2,2,0,0,0")));
     assert_noted_of(sli_map_read_tmx, NULL, few, strlen(few),
@@ -251,6 +256,33 @@ static void test_tiles_over_names(void **state) {
                     "f: layer 'Walls 2' is taken whole by its name, and only 1 of its 3 tiles says "
                     "that it is solid; if no others are: sightline check 'f' --layers 'Walls 2:1' "
                     "-o map.png, which takes no other layer\n");
+}
+
+/// Tiles that say that they are open are open in a layer named for collision, too; a note says so.
+static void test_tiles_deny_the_name(void **state) {
+    (void)state;
+#define TILE_2_OPEN                                                                                \
+    SET_OF("<tile id='0'>" TRUE(                                                                   \
+        "collide") "</tile><tile id='1'><properties><property "                                    \
+                   "name='collide' type='bool' value='false'/></properties></tile>")
+    const char *text = MAP(TILE_2_OPEN LAYER("Collision", CSV("2,1,1,2,2,2")));
+    assert_noted_of(sli_map_read_tmx, NULL, text, strlen(text), TWO_TILES,
+                    "f: layer 'Collision' is named for what is solid, but 4 of its 6 tiles say "
+                    "that they are open, and so they are taken; if they are solid: sightline check "
+                    "'f' --layers 'Collision:1-2' -o map.png\n");
+#undef TILE_2_OPEN
+}
+
+/// Tiles in a layer named for doors are doors where they are solid, else open ground; a note says
+/// so.
+static void test_layers_named_for_doors(void **state) {
+    (void)state;
+    const char *open =
+        MAP(TILE_1_COLLIDES LAYER("Walls", TILES) LAYER("Closed Doors", CSV("2,0,0,0,0,0")));
+    assert_noted_of(sli_map_read_tmx, NULL, open, strlen(open), TWO_TILES,
+                    "f: layer 'Closed Doors' (1 tile) is named for doors, and is taken as open: if "
+                    "it is solid: sightline check 'f' --layers 'Walls,Closed Doors' -o map.png; "
+                    "tiles of the class 'door' are doors\n");
 }
 
 /// A property that says it outright goes before what a property "name" calls the tile.
@@ -624,6 +656,8 @@ int main(void) {
         cmocka_unit_test(test_world),
         cmocka_unit_test(test_beside_player),
         cmocka_unit_test(test_tiles_over_names),
+        cmocka_unit_test(test_tiles_deny_the_name),
+        cmocka_unit_test(test_layers_named_for_doors),
         cmocka_unit_test(test_outright_before_name),
         cmocka_unit_test(test_few_solid_tiles),
         cmocka_unit_test(test_all_solid),

@@ -1,6 +1,7 @@
 /// The parts of the reader of GeoJSON. Files are walked once (geojson_walk.c), into features with
 /// their points. Then the points are laid in a plane, and each feature gets its meaning and its
-/// levels (geojson_means.c). Doors are cut out of the walls last (geojson_doors.c).
+/// levels (geojson_means.c, geojson_levels.c, geojson_storeys.c). Doors are cut out of the walls
+/// last (geojson_doors.c).
 #ifndef SL_GEOJSON_H
 #define SL_GEOJSON_H
 
@@ -50,6 +51,7 @@ typedef struct sli_geo {
     SL_ARRAY(sli_geo_line) lines;
     SL_ARRAY(sl_point) points; ///< as in the file, then in the map
     SL_ARRAY(size_t) levels;   ///< features that say where a level stands
+    const char *level_key;     ///< the property that names storeys; NULL for the usual ones
     double finest;             ///< the last decimal place of the coordinates
     size_t no_walls;           ///< doors that are on no wall, left out
     size_t cuts;               ///< openings in walls
@@ -66,6 +68,19 @@ sl_status sli_geo_place(sli_geo *geo);
 
 /// Finds out what each feature is.
 sl_status sli_geo_find_meanings(sli_geo *geo);
+/// What the features that are taken as walls mean: walls; where none does, nothing that is known;
+/// where all say something else, that they are none.
+sli_geo_meaning sli_geo_means_walls(const sli_geo *geo);
+
+/// Looks for the property that says on which storey a feature is, where none says it in the usual
+/// way: geo->level_key.
+sl_status sli_geo_find_storeys(sli_geo *geo);
+/// Tells where outlines that are taken lie on each other as storeys do.
+sl_status sli_geo_note_storeys(const sli_geo *geo);
+
+enum { SLI_GEO_LEVEL_TEXT = 64 };
+/// A number or a text as the name of a level; "" for none.
+void sli_geo_value(const json_t *value, char text[SLI_GEO_LEVEL_TEXT]);
 
 /// The names of all levels that walls and doors are on, lowest first; none where nothing has a
 /// level.

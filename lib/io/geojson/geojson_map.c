@@ -72,9 +72,7 @@ static sl_status refuse_ways(const sli_geo *geo) {
 /// something else, all.
 static sl_status choose(sli_geo *geo) {
     const sl_import_options *options = geo->options;
-    const sli_geo_meaning walls = options->layers || has_meaning(geo, SLI_GEO_WALL) ? SLI_GEO_WALL
-                                  : has_meaning(geo, SLI_GEO_UNSAID)                ? SLI_GEO_UNSAID
-                                                                     : SLI_GEO_NO_WALL;
+    const sli_geo_meaning walls = options->layers ? SLI_GEO_WALL : sli_geo_means_walls(geo);
     SL_TRY(check_layers(geo));
     const bool free = !options->layers && !options->lines;
     if (free && walls != SLI_GEO_WALL && has_meaning(geo, SLI_GEO_WAY)) return refuse_ways(geo);
@@ -232,6 +230,7 @@ static sl_status read_all(sli_geo *geo, const char *text, size_t size) {
     if (!lines) SL_TRY(sli_geo_refuse_points(geo));
     SL_TRY(sli_geo_place(geo));
     SL_TRY(sli_geo_find_meanings(geo));
+    SL_TRY(sli_geo_find_storeys(geo));
     SL_TRY(choose(geo));
     if (lines) choose_rings(geo);
     if (!lines) SL_TRY(sli_geo_doubt(geo));
@@ -247,7 +246,7 @@ static sl_status read_all(sli_geo *geo, const char *text, size_t size) {
         geo->map->precision = fmax(geo->map->precision, BENT);
     if (!lines) report(geo);
     if (!lines) sli_geo_note_levels(geo);
-    return SL_OK;
+    return lines ? SL_OK : sli_geo_note_storeys(geo);
 }
 
 sl_status sli_map_read_geojson(sl_context *context, const char *name, const char *text, size_t size,
@@ -277,6 +276,7 @@ sl_status sli_map_list_geojson(sl_context *context, const char *name, const char
     sl_status status = sli_geo_open(&geo, text, size);
     if (status == SL_OK) status = sli_geo_refuse_points(&geo);
     if (status == SL_OK) status = sli_geo_find_meanings(&geo);
+    if (status == SL_OK) status = sli_geo_find_storeys(&geo);
     if (status == SL_OK) status = sli_geo_levels(&geo, list);
     sli_geo_close(&geo);
     if (status != SL_OK) sl_map_list_destroy(context, list);

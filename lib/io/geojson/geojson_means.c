@@ -1,4 +1,4 @@
-/// What the features of GeoJSON are, and on which levels.
+/// What the features of GeoJSON are.
 ///
 /// No standard says where a file has its layers. So several properties are asked, those of the
 /// formats that are common first: IMDF (Apple's Indoor Mapping Data Format), our own exports,
@@ -6,7 +6,6 @@
 #include "io/geojson/geojson.h"
 #include "io/parts/names.h"
 
-#include <math.h>
 #include <string.h>
 #include <strings.h>
 
@@ -176,129 +175,13 @@ sl_status sli_geo_find_meanings(sli_geo *geo) {
     return sli_geo_find_halls(geo);
 }
 
-// --- levels
-
-/// The ordinal of a level of IMDF by its id; NAN for none.
-static double ordinal_of(const sli_geo *geo, const char *id) {
-    for (size_t i = 0; i < geo->levels.count; i++) {
-        const sli_geo_feature *level = &geo->features.items[geo->levels.items[i]];
-        const json_t *own = json_object_get(level->feature, "id");
-        if (json_is_string(own) && strcmp(json_string_value(own), id) == 0)
-            return json_number_value(sli_geo_property(level, "ordinal"));
-    }
-    return NAN;
-}
-
-enum { LEVEL_TEXT = 64 };
-
-/// What a feature says of its levels: "0", "0;1", "-1-2" (OpenStreetMap); "" for nothing.
-static void level_text(const sli_geo *geo, const sli_geo_feature *feature, char text[LEVEL_TEXT]) {
-    const char *id = sli_geo_text(feature, "level_id"), *said = sli_geo_text(feature, "level");
-    const json_t *level = sli_geo_property(feature, "level");
-    const json_t *own = strcasecmp(feature->layer, "level") == 0
-                            ? sli_geo_property(feature, "ordinal") // of a level itself
-                            : NULL;
-    const double ordinal = *id                     ? ordinal_of(geo, id)
-                           : json_is_number(level) ? json_number_value(level)
-                           : json_is_number(own)   ? json_number_value(own)
-                                                   : NAN;
-    char number[SL_NUMBER_TEXT];
-    if (isfinite(ordinal)) {
-        sl_number_write(ordinal, number);
-        snprintf(text, LEVEL_TEXT, "%s", number);
-    } else {
-        snprintf(text, LEVEL_TEXT, "%s", *id ? id : said);
-    }
-}
-
-/// Calls for each level of a text. A range counts where both ends are whole numbers.
-static sl_status each_level(const char *text,
-                            sl_status (*call)(void *user, const char *name, size_t length),
-                            void *user) {
-    enum { RANGE_MOST = 200 };
-    while (*text) {
-        const size_t length = strcspn(text, ";,");
-        const char *dash = memchr(text + 1, '-', length > 1 ? length - 1 : 0);
-        double low = 0, high = 0;
-        const bool range = dash && sl_number_read(text, (size_t)(dash - text), &low) &&
-                           sl_number_read(dash + 1, (size_t)(text + length - dash - 1), &high) &&
-                           floor(low) == low && high >= low && high - low < RANGE_MOST;
-        for (double at = low; range && at <= high; at++) {
-            char name[SL_NUMBER_TEXT];
-            sl_number_write(at, name);
-            SL_TRY(call(user, name, strlen(name)));
-        }
-        size_t blanks = 0, end = length;
-        while (blanks < end && text[blanks] == ' ') blanks++;
-        while (end > blanks && text[end - 1] == ' ') end--;
-        if (!range && end > blanks) SL_TRY(call(user, text + blanks, end - blanks));
-        text += length + (text[length] != '\0');
-    }
-    return SL_OK;
-}
-
-typedef struct level_search {
-    const char *level;
-    bool found;
-} level_search;
-
-static sl_status compare_level(void *user, const char *name, size_t length) {
-    level_search *search = user;
-    search->found |= strlen(search->level) == length && memcmp(search->level, name, length) == 0;
-    return SL_OK;
-}
-
-bool sli_geo_on_level(const sli_geo *geo, const sli_geo_feature *feature, const char *level) {
-    char text[LEVEL_TEXT];
-    level_text(geo, feature, text);
-    level_search search = {.level = level, .found = !*text};
-    (void)each_level(text, compare_level, &search);
-    return search.found;
-}
-
-enum { LEVELS_MOST = 1000 };
-
-typedef struct level_list {
-    sl_context *context;
-    const char *name; ///< of the file
-    sl_map_list *list;
-} level_list;
-
-/// Whether a level is lower than another: numbers before names.
-static bool is_lower(const char *a, const char *b) {
-    double x, y;
-    const bool has_x = sl_number_read(a, strlen(a), &x), has_y = sl_number_read(b, strlen(b), &y);
-    return has_x && has_y ? x < y : has_x != has_y ? has_x : strcmp(a, b) < 0;
-}
-
-static sl_status add_level(void *user, const char *name, size_t length) {
-    level_list *to = user;
-    sl_map_list *list = to->list;
-    for (size_t i = 0; i < list->count; i++)
-        if (strlen(list->names[i]) == length && memcmp(list->names[i], name, length) == 0)
-            return SL_OK;
-    if (list->count == LEVELS_MOST)
-        return sl_fail(to->context, SL_BAD_INPUT, "%s: more than %d levels", to->name, LEVELS_MOST);
-    SL_TRY(sl_map_list_add(to->context, list, name, length));
-    for (size_t i = list->count - 1; i > 0 && is_lower(list->names[i], list->names[i - 1]); i--) {
-        char *lower = list->names[i];
-        list->names[i] = list->names[i - 1];
-        list->names[i - 1] = lower;
-    }
-    return SL_OK;
-}
-
-sl_status sli_geo_levels(sli_geo *geo, sl_map_list *list) {
-    level_list to = {geo->context, geo->name, list};
-    char text[LEVEL_TEXT];
+sli_geo_meaning sli_geo_means_walls(const sli_geo *geo) {
+    sli_geo_meaning walls = SLI_GEO_NO_WALL;
     for (size_t i = 0; i < geo->features.count; i++) {
-        const sli_geo_feature *feature = &geo->features.items[i];
-        if (feature->means != SLI_GEO_WALL && feature->means != SLI_GEO_DOOR) continue;
-        // What OpenStreetMap says of some buildings divides no town into maps.
-        if (strcasecmp(feature->layer, "building") == 0 && !*sli_geo_text(feature, "level_id"))
-            continue;
-        level_text(geo, feature, text);
-        SL_TRY(each_level(text, add_level, &to));
+        const sli_geo_feature *f = &geo->features.items[i];
+        if (!f->count || geo->lines.items[f->first].count < 2) continue;
+        if (f->means == SLI_GEO_WALL) return SLI_GEO_WALL;
+        if (f->means == SLI_GEO_UNSAID) walls = SLI_GEO_UNSAID;
     }
-    return SL_OK;
+    return walls;
 }

@@ -292,6 +292,48 @@ static bool place_in_open(sli_things *things, const sl_map *map, sli_thing *door
     return door->placed = true;
 }
 
+/// Whether a wall of solid ground crosses a door between the ends of both, so that a part of the
+/// door would stand in the ground. Ends that are rounded onto the wall do not.
+static bool is_crossed(const sl_wall *wall, const sl_segment *door) {
+    const double end = 1e-9;
+    const sl_point d = {door->b.x - door->a.x, door->b.y - door->a.y};
+    const sl_point e = {wall->b.x - wall->a.x, wall->b.y - wall->a.y};
+    const sl_point w = {wall->a.x - door->a.x, wall->a.y - door->a.y};
+    const double area = d.x * e.y - d.y * e.x;
+    if (area == 0) return false;
+    const double t = (w.x * e.y - w.y * e.x) / area, s = (w.x * d.y - w.y * d.x) / area;
+    return t > end && t < 1 - end && s > 0 && s < 1;
+}
+
+/// Whether the next wall of the ground at the right of a place, or at its left, has solid ground at
+/// this hand. No open place has.
+static bool is_in_ground(const sl_map *map, sl_point at, bool right) {
+    double least = INFINITY;
+    bool solid = false;
+    for (size_t i = 0; i < map->wall_count; i++) {
+        const sl_wall *wall = &map->walls[i];
+        const bool up = wall->a.y < wall->b.y;
+        const sl_point low = up ? wall->a : wall->b, high = up ? wall->b : wall->a;
+        if (!wall->ground || at.y < low.y || at.y >= high.y) continue;
+        const double x = low.x + (at.y - low.y) / (high.y - low.y) * (high.x - low.x);
+        const double away = right ? x - at.x : at.x - x;
+        const uint32_t facing = up == right ? SL_SOLID_LEFT : SL_SOLID_RIGHT;
+        if (away < 0 || away > least) continue;
+        solid = (away == least && solid) || (wall->ground & facing);
+        least = away;
+    }
+    return solid;
+}
+
+static bool runs_into_ground(sli_things *things, const sl_map *map, const sl_segment *door) {
+    const sl_point middle = {(door->a.x + door->b.x) / 2, (door->a.y + door->b.y) / 2};
+    if (things->casts > MOST_CASTS) return false;
+    things->casts += 3 * map->wall_count;
+    for (size_t i = 0; i < map->wall_count; i++)
+        if (map->walls[i].ground && is_crossed(&map->walls[i], door)) return true;
+    return is_in_ground(map, middle, true) || is_in_ground(map, middle, false);
+}
+
 static bool is_usable(sl_point point) {
     return sl_coordinate_usable(sli_coordinate(point.x)) &&
            sl_coordinate_usable(sli_coordinate(point.y));
@@ -462,6 +504,21 @@ static void tell_doors(const sli_things *things, size_t open, size_t shut) {
             open + shut == 1 ? "" : "s", states);
 }
 
+/// Whether a door has a place where it can stand.
+static bool stands(sli_things *things, const sl_map *map, sli_thing *door) {
+    if (!place_in_open(things, map, door) || door->buried || !is_usable(door->at.a) ||
+        !is_usable(door->at.b) || (door->at.a.x == door->at.b.x && door->at.a.y == door->at.b.y))
+        return false;
+    door->in_ground = runs_into_ground(things, map, &door->at);
+    return !door->in_ground;
+}
+
+static const char *why_not(const sli_things *things, const sli_thing *door) {
+    if (things->grids && !door->inside) return "it is outside the map";
+    if (door->placed && door->buried) return "another layer is solid on both of its sides";
+    return door->in_ground ? "it runs into solid ground" : "no passage is found there";
+}
+
 static sl_status add_doors(sli_things *things, sl_map *map) {
     sli_thing **doors = sl_alloc_array(things->context, things->items.count, sizeof *doors);
     if (!doors) return SL_NO_MEMORY;
@@ -472,18 +529,12 @@ static sl_status add_doors(sli_things *things, sl_map *map) {
         if (i % 64 == 0) status = sl_check_cancelled(things->context);
         if (door->kind != SLI_THING_DOOR || door->again) continue;
         door->goes_on = door->goes_on && things->items.items[i - 1].placed;
-        if (place_in_open(things, map, door) && !door->buried && is_usable(door->at.a) &&
-            is_usable(door->at.b) &&
-            (door->at.a.x != door->at.b.x || door->at.a.y != door->at.b.y)) {
+        if (stands(things, map, door)) {
             doors[count++] = door;
             continue;
         }
-        const bool buried = door->placed && door->buried;
+        tell_left_out(things, door, &left_out, why_not(things, door));
         door->placed = false;
-        tell_left_out(things, door, &left_out,
-                      things->grids && !door->inside ? "it is outside the map"
-                      : buried                       ? "another layer is solid on both of its sides"
-                                                     : "no passage is found there");
         if (status == SL_OK && door->is_wall) status = add_outline(things, door, map);
     }
     tell_more(things, left_out, "door");

@@ -43,7 +43,8 @@ typedef struct sli_thing {
     uint32_t line;
     bool inside;       ///< within some grid
     bool solid;        ///< its middle is on solid ground
-    bool buried;       ///< a door: solid ground of some grid is on both of its sides
+    bool buried;       ///< a door: solid ground of some grid is on both of its sides,
+    bool in_ground;    ///< and it would run into solid ground
     bool moved;        ///< a start that stood on the edge of a solid square
     const char *doubt; ///< a start that is not believed: why; else NULL
     bool placed;       ///< a door whose segment is found, in the map's coordinates

@@ -17,7 +17,8 @@
 /// Doors that lie side by side end at each other: before anything is decided, squares of doors are
 /// marked '+' where they are open and 'X' where they are solid. Objects come first, and their
 /// squares become 'o': a door of tiles whose squares all belong to objects is the same door once
-/// more. Time O(squares of all doors).
+/// more. So is one beside which an object much smaller than a square lies on a wall. Time O(squares
+/// of all doors).
 #include "io/parts/things.h"
 
 #include <math.h>
@@ -234,6 +235,45 @@ static bool is_all(const spot *at, char kind) {
     return at->rows.from < at->rows.to && at->columns.from < at->columns.to;
 }
 
+/// An object less than half a square large, on a solid square: it may stand for a door beside it.
+static bool is_mark(const spot *at) {
+    const sl_point middle = at->middle;
+    return !at->thing->is_line && fmax(at->half.x, at->half.y) < 0.25 &&
+           sli_grid_solid(at->grid, (size_t)middle.y, (size_t)middle.x);
+}
+
+/// How far a mark is from the box of a door of tiles, in squares.
+static double away_from(const spot *mark, const sli_thing *tiles) {
+    const sl_point step = mark->grid->step, from = mark->thing->middle;
+    const double x = fabs(from.x - tiles->middle.x) - tiles->u.x;
+    const double y = fabs(from.y - tiles->middle.y) - tiles->v.y;
+    return fmax(fmax(x / step.x - mark->half.x, y / step.y - mark->half.y), 0);
+}
+
+/// Marks of doors that lie on a wall within a third of a square of a door of tiles are that door:
+/// the wall there is no door.
+static void join_marks(sli_things *things, sli_grid *grid) {
+    enum { MOST = 1 << 24 };
+    const double near = 1.0 / 3;
+    size_t looks = 0;
+    for (size_t i = 0; i < things->items.count && looks < MOST; i++) {
+        sli_thing *mark = &things->items.items[i];
+        spot at;
+        if (mark->kind != SLI_THING_DOOR || mark->of_tiles || mark->placed) continue;
+        if (!find_spot(things, grid, mark, &at) || !is_mark(&at)) continue;
+        looks += things->items.count;
+        for (size_t k = 0; k < things->items.count; k++) {
+            const sli_thing *tiles = &things->items.items[k];
+            if (!tiles->of_tiles || tiles->placed || away_from(&at, tiles) > near) continue;
+            mark->middle = tiles->middle;
+            mark->u = tiles->u;
+            mark->v = tiles->v;
+            mark->open &= tiles->open;
+            break;
+        }
+    }
+}
+
 static sl_status place_doors(sli_things *things, sli_grid *grid, bool of_tiles) {
     for (size_t i = 0; i < things->items.count; i++) {
         sli_thing *door = &things->items.items[i];
@@ -319,6 +359,7 @@ static void place_start(const sli_things *things, const spot *at, sli_thing *sta
 sl_status sli_things_place(sli_things *things, sli_grid *grid) {
     spot at;
     things->grids++;
+    join_marks(things, grid);
     for (size_t i = 0; i < things->items.count; i++) {
         const sli_thing *door = &things->items.items[i];
         if (door->kind != SLI_THING_DOOR || door->placed) continue;

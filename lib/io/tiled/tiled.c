@@ -126,6 +126,8 @@ static sl_status find_place(const sli_tiled_reader *reader, const sli_json *laye
     own->beside |= sli_game_says_beside_player(name);
     const sli_game_kind kind = kind_of_layer(layer);
     if (kind != SLI_GAME_UNSAID) own->kind = kind;
+    const bool tiles = strcmp(sli_json_text_of(layer, "type"), "tilelayer") == 0;
+    own->doors = tiles && sli_says_door(name) ? name : NULL;
     SL_TRY(sli_tiled_read_stops(layer, &own->stops));
     if (reader->options->layers) {
         sli_word gids;
@@ -138,12 +140,11 @@ static sl_status find_place(const sli_tiled_reader *reader, const sli_json *laye
     }
     own->word = word_of_layer(reader, layer, own);
     own->tiles_decide = false;
-    own->said = 0;
-    const bool tiles = strcmp(sli_json_text_of(layer, "type"), "tilelayer") == 0;
+    own->said = own->denied = 0;
     if (!tiles || own->word != SLI_TILED_SOLID || reader->by || map_names(reader, name) ||
-        sli_game_says_stops(name) || sli_tiled_word_of(layer, "class") != SLI_TILED_UNSAID)
+        sli_tiled_word_of(layer, "class") != SLI_TILED_UNSAID)
         return SL_OK;
-    return sli_tiled_ask_tiles(reader, layer, own);
+    return sli_tiled_ask_tiles(reader, layer, sli_game_says_stops(name), own);
 }
 
 /// What a file of our own says of the whole map.
@@ -186,7 +187,9 @@ static sl_status see_layer(sli_tiled_reader *reader, const sli_json *layer,
                          .objects = objects,
                          .moves = own->moves,
                          .kind = own->kind,
-                         .said = own->said};
+                         .tiles_decide = own->tiles_decide,
+                         .said = own->said,
+                         .denied = own->denied};
     return SL_OK;
 }
 

@@ -243,8 +243,10 @@ typedef struct sli_tiled_seen {
     size_t beside;       ///< solid tiles that are not taken, as the player goes over or under them
     sli_game_kind kind;  ///< by its name, else by that of its group
     uint64_t count, squares;
-    size_t solid; ///< of its tiles: those that say that they are solid
-    size_t said;  ///< as sli_tiled_place has it
+    size_t solid;      ///< of its tiles: those that say that they are solid
+    bool tiles_decide; ///< as sli_tiled_place has it,
+    size_t said;       ///< and these
+    size_t denied;
 } sli_tiled_seen;
 
 /// A closed object that is solid: a number of walls of the pen's map.
@@ -309,9 +311,11 @@ typedef struct sli_tiled_place {
     bool moves;         ///< against what is behind it: by a parallax
     bool tiles_decide;  ///< what its tiles say goes over its name
     size_t said;        ///< so many tiles of a layer named for walls say that they are solid; 0
-                        ///< where none or all do
+                        ///< where none do, or no tile is silent
+    size_t denied;      ///< and so many that they are open
     bool others;        ///< its objects are enemies, items, triggers
     bool beside;        ///< it is drawn below or above the player
+    const char *doors;  ///< the name of a layer of tiles that is named for doors; else NULL
     sli_word gids;      ///< the tiles that are asked for; of no length for all
     bool asked;
     uint32_t stops; ///< what walls of its objects stop; 0 where nothing is said
@@ -387,8 +391,9 @@ sl_status sli_tiled_check_squares(const sli_tiled_reader *reader, const sli_json
 /// reader->walls_are_pictures; and whether objects named for borders count: reader->borders.
 sl_status sli_tiled_look_beside(sli_tiled_reader *reader);
 /// Whether the tiles of a layer that is named for walls decide which of them are solid:
-/// own->tiles_decide, own->said. To be asked where the name is all that says so.
-sl_status sli_tiled_ask_tiles(const sli_tiled_reader *reader, const sli_json *layer,
+/// own->tiles_decide, own->said, own->denied. To be asked where the name is all that says so. A
+/// name for what `stops` a player holds for all tiles that do not say otherwise.
+sl_status sli_tiled_ask_tiles(const sli_tiled_reader *reader, const sli_json *layer, bool stops,
                               sli_tiled_place *own);
 /// Whether nearly all squares have tiles, and nearly all of these say that they are solid.
 bool sli_tiled_all_solid(const sli_tiled_sets *sets, const uint32_t *gids, size_t count);

@@ -31,10 +31,15 @@ bool sli_tiled_all_solid(const sli_tiled_sets *sets, const uint32_t *gids, size_
     return solid && 20 * any >= 19 * count && 20 * solid >= 19 * any;
 }
 
-/// Adds the tiles of a layer or a chunk, and those that say that they are solid. *known: no tileset
-/// of these is missing.
+/// The tiles of a layer.
+typedef struct said_tiles {
+    size_t all, solid, open; ///< those that say that they are solid, or open
+    bool unknown;            ///< a tileset of some is missing
+} said_tiles;
+
+/// Adds the tiles of a layer or a chunk. Tiles of doors are open by themselves.
 static sl_status count_said(const sli_tiled_reader *reader, const sli_json *layer,
-                            const sli_json *holder, size_t *all, size_t *solid, bool *known) {
+                            const sli_json *holder, said_tiles *out) {
     const sli_json width = sli_json_member(holder, "width");
     const sli_json height = sli_json_member(holder, "height");
     const sli_json data = sli_json_member(holder, "data");
@@ -49,42 +54,47 @@ static sl_status count_said(const sli_tiled_reader *reader, const sli_json *laye
         const uint32_t gid = gids[i] & SLI_TILED_TILE;
         const sli_tiled_set *set = gid ? sli_tiled_find_set(&reader->sets, gid) : NULL;
         const sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
-        *all += gid != 0;
-        *known &= !set || !set->missing;
-        *solid += sli_tiled_word_of_tile(set, tile) == SLI_TILED_SOLID;
+        const sli_tiled_word word = sli_tiled_word_of_tile(set, tile);
+        const bool door = tile && tile->says.kind == SLI_THING_DOOR;
+        out->all += gid != 0;
+        out->unknown |= set && set->missing;
+        out->solid += word == SLI_TILED_SOLID;
+        out->open += word == SLI_TILED_OPEN && !door;
     }
     sl_free(reader->context, gids);
     return SL_OK;
 }
 
-/// Whether some tile of some set says that it is solid: else a layer need not be looked through.
+/// Whether some tile of some set says what it is: else a layer need not be looked through.
 static bool any_says(const sli_tiled_sets *sets) {
     for (size_t i = 0; i < sets->sets.count; i++) {
         const sli_tiled_set *set = &sets->sets.items[i];
-        if (set->word == SLI_TILED_SOLID) return true;
+        if (set->word != SLI_TILED_UNSAID) return true;
         for (size_t k = 0; k < set->tiles.count; k++)
-            if (set->tiles.items[k].word == SLI_TILED_SOLID) return true;
+            if (set->tiles.items[k].word != SLI_TILED_UNSAID) return true;
     }
     return false;
 }
 
-sl_status sli_tiled_ask_tiles(const sli_tiled_reader *reader, const sli_json *layer,
+sl_status sli_tiled_ask_tiles(const sli_tiled_reader *reader, const sli_json *layer, bool stops,
                               sli_tiled_place *own) {
     const sli_json infinite = sli_json_member(reader->map, "infinite");
     const sli_json chunks = sli_json_member(layer, "chunks");
-    size_t all = 0, solid = 0;
-    bool known = true;
+    said_tiles count = {0};
     if (!any_says(&reader->sets)) return SL_OK;
     if (!chunks.value && !sli_json_true(&infinite, NULL))
-        SL_TRY(count_said(reader, layer, layer, &all, &solid, &known));
+        SL_TRY(count_said(reader, layer, layer, &count));
     for (size_t i = 0; i < json_array_size(chunks.value); i++) {
         const sli_json chunk = sli_json_item(&chunks, i);
         SL_TRY(sli_json_object(&chunk));
-        SL_TRY(count_said(reader, layer, &chunk, &all, &solid, &known));
+        SL_TRY(count_said(reader, layer, &chunk, &count));
     }
-    if (!solid || solid == all || !known) return SL_OK;
-    own->tiles_decide = 2 * solid >= all;
-    own->said = solid;
+    own->denied = count.open;
+    if (!count.solid || count.solid + count.open == count.all || count.unknown) return SL_OK;
+    // A few tiles that say nothing in a layer named for collision are no contradiction.
+    if (stops && 10 * (count.solid + count.open) > 9 * count.all) return SL_OK;
+    own->tiles_decide = !stops && 2 * count.solid >= count.all;
+    own->said = count.solid;
     return SL_OK;
 }
 

@@ -236,7 +236,7 @@ sl_status sli_tiled_draw_picture(sli_tiled_reader *reader, const sli_json *objec
 
 /// A door of one staggered tile. Its neighbours are other doors.
 static sl_status add_diamond_door(sli_tiled_reader *reader, const block *all, size_t i,
-                                  const sli_tiled_tile *tile) {
+                                  const sli_says *says) {
     const sl_point step = reader->lattice.step;
     const size_t at = (size_t)(square_of(reader, all, i) - all->squares);
     const size_t width = (size_t)(all->range.right - all->range.left);
@@ -246,14 +246,14 @@ static sl_status add_diamond_door(sli_tiled_reader *reader, const block *all, si
                             .of_tiles = true,
                             .u = {step.x / 2, 0},
                             .v = {0, step.y / 2},
-                            .open = tile->says.state != SLI_DOOR_SHUT};
-    return sli_things_add(&reader->things, tile->says.name, door);
+                            .open = says->state != SLI_DOOR_SHUT};
+    return sli_things_add(&reader->things, says->name, door);
 }
 
 /// A door's square is solid where it lies in a solid layer, or is drawn to collide with: if no
 /// passage is found for the door, it stays so.
 static sl_status take_door(sli_tiled_reader *reader, const sli_tiled_place *at, const block *all,
-                           size_t i, const sli_tiled_tile *tile) {
+                           size_t i, const sli_tiled_tile *tile, const sli_says *says) {
     if (at->word == SLI_TILED_SOLID || tile->word == SLI_TILED_SOLID || tile->shapes)
         *square_of(reader, all, i) = '#';
     if (reader->by) return SL_OK; // the first reading took it
@@ -262,8 +262,20 @@ static sl_status take_door(sli_tiled_reader *reader, const sli_tiled_place *at, 
         return SL_OK;
     }
     if (reader->lattice.orientation == SLI_TILED_STAGGERED)
-        return add_diamond_door(reader, all, i, tile);
-    return sli_things_add_square(&reader->things, &tile->says, i % all->columns, i / all->columns);
+        return add_diamond_door(reader, all, i, says);
+    return sli_things_add_square(&reader->things, says, i % all->columns, i / all->columns);
+}
+
+/// Whether a tile is a door: it says so, or it is solid in a layer that is named for doors. That
+/// one is shut, if the name does not say otherwise.
+static bool is_door(const sli_tiled_place *at, const sli_tiled_tile *tile, sli_says *says) {
+    if (!tile || at->gids.length) return false;
+    *says = tile->says;
+    if (says->kind == SLI_THING_DOOR) return true;
+    if (!at->doors || (tile->word != SLI_TILED_SOLID && !tile->shapes)) return false;
+    *says = sli_says_of(at->doors, NULL);
+    if (!says->state) says->state = SLI_DOOR_SHUT;
+    return says->kind == SLI_THING_DOOR;
 }
 
 sli_tiled_word sli_tiled_word_of_tile(const sli_tiled_set *set, const sli_tiled_tile *tile) {
@@ -296,8 +308,8 @@ static sl_status take_tile(sli_tiled_reader *reader, const sli_tiled_place *at, 
         return SL_OK;
     }
     if (set && set->missing) reader->lost_tiles++;
-    if (tile && tile->says.kind == SLI_THING_DOOR && !at->gids.length)
-        return take_door(reader, at, all, i, tile);
+    sli_says says;
+    if (is_door(at, tile, &says)) return take_door(reader, at, all, i, tile, &says);
     if (at->word == SLI_TILED_SOLID && !at->tiles_decide) {
         const bool solid =
             at->gids.length ? sli_numbers_have(at->gids, gid) : word != SLI_TILED_OPEN;
@@ -324,7 +336,8 @@ static sl_status check_shapes(sli_tiled_reader *reader, const sli_tiled_place *a
         if (!tile || !tile->shapes || (at->word == SLI_TILED_SOLID && !at->tiles_decide) ||
             sli_tiled_word_of_tile(set, tile) != SLI_TILED_UNSAID)
             continue;
-        if (tile->says.kind == SLI_THING_DOOR && !at->gids.length) continue;
+        sli_says says;
+        if (is_door(at, tile, &says)) continue;
         SL_TRY(meet_tile(reader, set, tile));
         reader->tile_shapes = sli_limit_sum(reader->tile_shapes, tile->drawn);
         reader->tile_walls = sli_limit_sum(reader->tile_walls, tile->walls);

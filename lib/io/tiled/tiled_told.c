@@ -4,10 +4,10 @@
 
 #include "io/io_formats.h"
 
-/// The tiles of a layer that say that they are solid, as ":28+33-35"; "" where they are too many,
-/// or the layer lies in chunks.
-static sl_status list_said(const sli_tiled_reader *reader, const sli_tiled_seen *seen, char *text,
-                           size_t size) {
+/// The tiles of a layer that say that they are solid, or all, as ":28+33-35"; "" where they are too
+/// many, or the layer lies in chunks.
+static sl_status list_said(const sli_tiled_reader *reader, const sli_tiled_seen *seen, bool all,
+                           char *text, size_t size) {
     const sli_json layer = {.file = reader->map->file, .value = seen->layer};
     const sli_json data = sli_json_member(&layer, "data");
     uint32_t *gids;
@@ -19,7 +19,8 @@ static sl_status list_said(const sli_tiled_reader *reader, const sli_tiled_seen 
         const uint32_t gid = gids[i] & SLI_TILED_TILE;
         const sli_tiled_set *set = gid ? sli_tiled_find_set(&reader->sets, gid) : NULL;
         const sli_tiled_tile *tile = set ? sli_tiled_find_tile(set, gid) : NULL;
-        if (sli_tiled_word_of_tile(set, tile) == SLI_TILED_SOLID) gids[said++] = gid;
+        if (all ? gid != 0 : sli_tiled_word_of_tile(set, tile) == SLI_TILED_SOLID)
+            gids[said++] = gid;
     }
     const sl_status status =
         sli_numbers_write(reader->context, gids, said, false, &most, text + 1, size - 1);
@@ -47,6 +48,21 @@ static void write_command(const sli_tiled_reader *reader, const sli_tiled_seen *
              taken > layer->taken ? ", which takes no other layer" : "");
 }
 
+/// A layer that its name makes solid, with tiles that say that they are open.
+static sl_status tell_denied(const sli_tiled_reader *reader, const sli_tiled_seen *layer) {
+    char tiles[240], next[900];
+    if (!layer->denied) return SL_OK;
+    SL_TRY(list_said(reader, layer, true, tiles, sizeof tiles));
+    write_command(reader, layer, false, tiles, next, sizeof next);
+    sl_note(reader->context,
+            "%s: layer '%s' is named for what is solid, but %zu of its %llu tiles say%s open, and "
+            "so they are taken; if they are solid: %s",
+            reader->map->file->name, sli_show((sli_word){layer->name, strlen(layer->name)}).text,
+            layer->denied, (unsigned long long)layer->count,
+            layer->denied == 1 ? "s that it is" : " that they are", next);
+    return SL_OK;
+}
+
 /// Layers below and above the player whose tiles say that they are solid, and are not taken; and
 /// layers named for walls of whose tiles only some say so.
 static sl_status tell_said(const sli_tiled_reader *reader) {
@@ -55,10 +71,11 @@ static sl_status tell_said(const sli_tiled_reader *reader) {
     for (size_t i = 0; i < reader->seen.count; i++) {
         const sli_tiled_seen *layer = &reader->seen.items[i];
         const sli_shown name = sli_show((sli_word){layer->name, strlen(layer->name)});
-        const bool decide = 2 * layer->said >= layer->count;
+        const bool decide = layer->tiles_decide;
+        SL_TRY(tell_denied(reader, layer));
         if (!layer->beside && !layer->said) continue;
-        SL_TRY(list_said(reader, layer, tiles, sizeof tiles));
-        write_command(reader, layer, layer->said && decide, tiles, next, sizeof next);
+        SL_TRY(list_said(reader, layer, false, tiles, sizeof tiles));
+        write_command(reader, layer, decide, tiles, next, sizeof next);
         if (layer->beside)
             sl_note(reader->context,
                     "%s: layer '%s' is below or above the player: %zu of its tiles say that they "
@@ -78,6 +95,49 @@ static sl_status tell_said(const sli_tiled_reader *reader) {
                     layer->said == 1 ? "s that it is" : " that they are", next);
     }
     return SL_OK;
+}
+
+/// As sli_tiled_list_taken, but without this layer, or with it.
+static void list_taken_but(const sli_tiled_reader *reader, const sli_tiled_seen *changed,
+                           char *text, size_t size) {
+    size_t used = 0;
+    *text = '\0';
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        if (layer->taken == (layer == changed)) continue;
+        if (!sli_tiled_can_be_typed(layer->name) || used + strlen(layer->name) + 2 > size) {
+            *text = '\0';
+            return;
+        }
+        used += (size_t)snprintf(text + used, size - used, "%s%s", used ? "," : "", layer->name);
+    }
+}
+
+void sli_tiled_list_taken(const sli_tiled_reader *reader, char *text, size_t size) {
+    list_taken_but(reader, NULL, text, size);
+}
+
+/// Layers of tiles that are named for doors, with tiles that are none, as they do not say that they
+/// are solid.
+static void tell_doors(const sli_tiled_reader *reader) {
+    for (size_t i = 0; i < reader->things.items.count; i++)
+        if (reader->things.items.items[i].of_tiles) return;
+    for (size_t i = 0; i < reader->seen.count; i++) {
+        const sli_tiled_seen *layer = &reader->seen.items[i];
+        char names[400];
+        if (layer->objects || !layer->count || !sli_says_door(layer->name)) continue;
+        list_taken_but(reader, layer, names, sizeof names);
+        if (!*names) continue;
+        sl_note(reader->context,
+                "%s: layer '%s' (%llu tile%s) is named for doors, and is taken as %s: if %s: "
+                "sightline check '%.300s' --layers '%s' -o map.png; tiles of the class 'door' are "
+                "doors",
+                reader->map->file->name,
+                sli_show((sli_word){layer->name, strlen(layer->name)}).text,
+                (unsigned long long)layer->count, layer->count == 1 ? "" : "s",
+                layer->taken ? "solid" : "open", layer->taken ? "it is open" : "it is solid",
+                reader->map->file->name, names);
+    }
 }
 
 /// The tiles of the layers that are taken.
@@ -281,20 +341,6 @@ static sl_status tell_weaker(const sli_tiled_reader *reader, const sli_tiled_lay
     return SL_OK;
 }
 
-void sli_tiled_list_taken(const sli_tiled_reader *reader, char *text, size_t size) {
-    size_t used = 0;
-    *text = '\0';
-    for (size_t i = 0; i < reader->seen.count; i++) {
-        const sli_tiled_seen *layer = &reader->seen.items[i];
-        if (!layer->taken) continue;
-        if (!sli_tiled_can_be_typed(layer->name) || used + strlen(layer->name) + 2 > size) {
-            *text = '\0';
-            return;
-        }
-        used += (size_t)snprintf(text + used, size - used, "%s%s", used ? "," : "", layer->name);
-    }
-}
-
 sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
     const sli_tiled_layer_text taken = sli_tiled_list_layers(reader, true),
                                others = sli_tiled_list_layers(reader, false);
@@ -312,6 +358,7 @@ sl_status sli_tiled_tell_meaning(const sli_tiled_reader *reader) {
                 file,
                 sli_show((sli_word){reader->believed_not, strlen(reader->believed_not)}).text);
     if (!reader->by) SL_TRY(tell_said(reader));
+    if (!reader->by) tell_doors(reader);
     if (!reader->by) tell_little(reader);
     if (!reader->by) SL_TRY(tell_objects(reader));
     if (!reader->by) SL_TRY(tell_tiles(reader));
