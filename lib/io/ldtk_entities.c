@@ -88,7 +88,9 @@ static bool says_likely_wall(const char *name) {
            !sli_game_says_other(name);
 }
 
+/// Boxes that may be walls are none beside firmer ones: their name is told.
 static void drop_walls(sli_ldtk *reader) {
+    if (reader->walls.count) sli_things_leave(&reader->things, reader->mark);
     reader->entities += reader->walls.count;
     reader->walls.count = reader->marks = 0;
     reader->wall_sized = reader->walls_likely = false;
@@ -102,7 +104,10 @@ static sl_status keep_wall(sli_ldtk *reader, const char *name, const sl_box *box
     if (!(size.x > 0 && size.y > 0)) return SL_OK;
     if (reader->walls_likely && !likely) drop_walls(reader);
     if (!reader->walls.count) reader->walls_likely = likely;
-    if (likely && !reader->walls_likely) return SL_OK;
+    if (likely && !reader->walls_likely) {
+        sli_things_leave(&reader->things, name);
+        return SL_OK;
+    }
     if (!*reader->mark) snprintf(reader->mark, sizeof reader->mark, "%s", name);
     reader->marks += strncmp(reader->mark, name, sizeof reader->mark - 1) == 0;
     SL_TRY(SL_ARRAY_ROOM(reader->context, &reader->walls, 1));

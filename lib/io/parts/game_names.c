@@ -60,15 +60,16 @@ static const char *const likely_words[] = {
 };
 /// Beside words for solid: which walls they are.
 static const char *const which_words[] = {
-    "inner",  "outer", "inside",  "outside",    "interior", "exterior",    "indoor",  "outdoor",
-    "house",  "room",  "dungeon", "castle",     "cave",     "building",    "city",    "town",
-    "world",  "level", "game",    "main",       "static",   "player",      "physics", "invisible",
-    "hidden", "stone", "brick",   "wood",       "wooden",   "rock",        "north",   "south",
-    "east",   "west",  "left",    "right",      "bottom",   "lower",       "low",     "big",
-    "small",  "high",  "tall",    "thick",      "thin",     "all",         "first",   "second",
-    "my",     "the",   "and",     "a",          "b",        "c",           "x",       "y",
-    "line",   "full",  "data",    "check",      "info",     "grid",        "set",     "tileset",
-    "metal",  "basic", "tilemap", "tileslayer", "env",      "environment", "hard",    "physic",
+    "inner",       "outer", "inside",  "outside", "interior", "exterior", "indoor",     "outdoor",
+    "house",       "room",  "dungeon", "castle",  "cave",     "building", "city",       "town",
+    "world",       "level", "game",    "main",    "static",   "player",   "physics",    "invisible",
+    "hidden",      "stone", "brick",   "wood",    "wooden",   "rock",     "north",      "south",
+    "east",        "west",  "left",    "right",   "bottom",   "lower",    "low",        "big",
+    "small",       "high",  "tall",    "thick",   "thin",     "all",      "first",      "second",
+    "my",          "the",   "and",     "a",       "b",        "c",        "x",          "y",
+    "line",        "full",  "data",    "check",   "info",     "grid",     "set",        "tileset",
+    "metal",       "iron",  "steel",   "marble",  "basic",    "tilemap",  "tileslayer", "env",
+    "environment", "hard",  "physic",
 };
 /// Words for solid that say what stops a player, not what it looks like.
 static const char *const stop_words[] = {
