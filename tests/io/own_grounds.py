@@ -87,8 +87,13 @@ def ros(path):
     columns, rows, most, pixels = netpbm((path.parent / said["image"].strip("'\"")).read_bytes())
     x0, y0, yaw = (float(word) for word in said["origin"].strip("[]").split(","))
     size, free = float(said["resolution"]), float(said["free_thresh"])
+    occupied = float(said.get("occupied_thresh", 0.65))
     negate = said.get("negate", "0") in ("1", "true")
     drawing = Drawing()
+    # Map savers write 254 for free and 205 for unknown ground, whatever free_thresh says.
+    if free < occupied and {254, 255} & set(pixels) and \
+            all(value in (205, 254, 255) for value in set(pixels) if 1 - value / most < free):
+        free = min(free, 0.196)
     if yaw:
         drawing.unread["turned"] += 1
 
