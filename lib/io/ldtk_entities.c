@@ -81,14 +81,14 @@ static sl_status keep_other(sli_ldtk *reader, const sl_box *box, double step) {
     return SL_OK;
 }
 
-/// Whether an entity of this name may be a wall beside no firmer one: "MarbleWall", but no torch on
+/// Whether an entity of this name may be a wall beside no firmer one: "PearlWall", but no torch on
 /// a wall.
 static bool says_likely_wall(const char *name) {
     return sli_game_kind_of(name) == SLI_GAME_LIKELY && sli_mentions_solid(name) &&
            !sli_game_says_other(name);
 }
 
-/// Boxes that may be walls are none beside firmer ones: their name is told.
+/// Boxes that may be walls are none beside firmer ones: a note names them.
 static void drop_walls(sli_ldtk *reader) {
     if (reader->walls.count) sli_things_leave(&reader->things, reader->mark);
     reader->entities += reader->walls.count;
